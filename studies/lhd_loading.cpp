@@ -120,9 +120,9 @@ int main(int argc, char** argv) {
                          .content = engine::loading::LogContent::all,
                          .responses = responses_of});
   study.presets = {studies::lindmark2016_preset()};
-  study.findings = studies::loading_findings;
-  study.marks = {{"plus", Eigen::Vector4d(1.2, 0.8, 0.8, 0.0)},  // Lindmark (2016), section 5.3
-                 {"circle", Eigen::Vector4d(0.3, 0.6, 0.4, 0.4)},
-                 {"cross", Eigen::Vector4d(1.8, 0.1, 0.0, 0.8)}};
+  study.presentation.findings = studies::loading_findings;
+  study.presentation.marks = {{"plus", Eigen::Vector4d(1.2, 0.8, 0.8, 0.0)},  // Lindmark (2016), section 5.3
+                              {"circle", Eigen::Vector4d(0.3, 0.6, 0.4, 0.4)},
+                              {"cross", Eigen::Vector4d(1.8, 0.1, 0.0, 0.8)}};
   return studies::run(argc, argv, study);
 }

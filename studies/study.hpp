@@ -147,8 +147,53 @@ using CycleFunction = LogFunction<CycleWork, std::filesystem::path>;
 using FigureFunction = LogFunction<nlohmann::json, std::filesystem::path>;
 using ContrastFunction = LogFunction<nlohmann::json, std::vector<std::filesystem::path>>;
 
-/// All that makes a study. Name: letters, digits, '_' and '-'; it names the default output folder
-/// `results/<name>`.
+/// What makes the runs: a folder never mixes those of two.
+struct Simulator {
+  /// Such as another program and its checksum, or a model by a name that changes with what it simulates. Empty: this
+  /// program, whatever its version.
+  std::string name = {};
+  std::string note = {};  ///< said once, when a folder is begun: what counts as the simulator; empty: nothing
+  /// Libraries that the black box is made with, each with its version, such as "Simbody 3.7.0": for --version.
+  std::vector<std::string> libraries = {};
+  /// Words that stand before the command on the command line, such as the file that the study was read from.
+  /// The processes of its runs are started with these, whatever was typed.
+  std::vector<std::string> leading_words = {};
+};
+
+/// What the logs of runs are good for.
+struct Logs {
+  /// Called with the log of a run that has ended, by itself or not, before it is kept: a black box that writes
+  /// more files than that one makes one of them. May throw; the log is then kept as it is.
+  std::function<void(const std::filesystem::path& log)> finish = {};
+  /// The responses as a function of a run's log and the study's options alone, equal to what the black box
+  /// gave: with it, `rerun-responses` takes them anew from the logs that there are, after a response or an
+  /// option of responses has changed. May return a doe::Failure, or throw.
+  std::function<doe::Outcome(const std::filesystem::path& log, const OptionValues& options)> responses = {};
+  /// The cycles of a run, from its log: with them the report says what other hauls would change.
+  CycleFunction cycles = {};
+};
+
+/// What summary and report show beside the models.
+struct Presentation {
+  /// Figures of one run for the report, from its log: a JSON array of panels, whose kinds stand above.
+  FigureFunction illustrate = {};
+  /// Figures of one run for its replay, where these are more than for the report: of every cycle. A panel with
+  /// "cycle": 3 is of that cycle, and the page shows one cycle at a time. Empty: those of `illustrate`.
+  FigureFunction replay = {};
+  /// Figures for the report that set runs against each other, from the logs of all runs that succeeded, which
+  /// are named by their run, run_0012.h5: a JSON array of panels, shown two in a row.
+  ContrastFunction contrast = {};
+  /// Figures from the logs of all runs that succeeded, said first in summary and report.
+  HeadlineFunction headlines = {};
+  /// Points with names, such as those of a source; the one called "reference" is what the recommendation is
+  /// compared with.
+  std::vector<Mark> marks = {};
+  /// What is claimed about the black box and whether its runs bear it out, said in summary and report.
+  std::function<std::vector<Finding>(const StudyResults& results)> findings = {};
+};
+
+/// All that makes a study: name, problem and black box, and what more it has to say. Name: letters, digits, '_' and '-';
+/// it names the default output folder `results/<name>`.
 struct Study {
   std::string name = {};
   doe::Problem problem = {};
@@ -159,44 +204,12 @@ struct Study {
   std::vector<Preset> presets = {};
   /// Why these values cannot go together, with what is allowed; empty: they can. Asked before a folder is made.
   std::function<std::string(const OptionValues& options)> options_complaint = {};
-  /// Words that stand before the command on the command line, such as the file that the study was read from.
-  /// The processes of its runs are started with these, whatever was typed.
-  std::vector<std::string> leading_words = {};
-  /// What makes the runs, such as another program and its checksum, or a model by a name that changes with what
-  /// it simulates: a folder never mixes runs of two. Empty: this program, whatever its version.
-  std::string simulator = {};
-  /// Said once, when a folder is begun: what counts as the simulator. Empty: nothing.
-  std::string simulator_note = {};
-  /// Libraries that the black box is made with, each with its version, such as "Simbody 3.7.0": for
-  /// --version.
-  std::vector<std::string> libraries = {};
   /// Called once, before the first run, to fill the empty folder `shared`; may take long. Everything it
   /// writes is kept or nothing.
   std::function<void(const RunContext& context)> prepare = {};
-  /// Figures of one run for the report, from its log: a JSON array of panels, whose kinds stand above.
-  FigureFunction illustrate = {};
-  /// Figures of one run for its replay, where these are more than for the report: of every cycle. A panel with
-  /// "cycle": 3 is of that cycle, and the page shows one cycle at a time. Empty: those of `illustrate`.
-  FigureFunction replay = {};
-  /// Called with the log of a run that has ended, by itself or not, before it is kept: a black box that writes
-  /// more files than that one makes one of them. May throw; the log is then kept as it is.
-  std::function<void(const std::filesystem::path& log)> finish_log = {};
-  /// Figures for the report that set runs against each other, from the logs of all runs that succeeded, which
-  /// are named by their run, run_0012.h5: a JSON array of panels, shown two in a row.
-  ContrastFunction contrast = {};
-  /// The responses as a function of a run's log and the study's options alone, equal to what the black box
-  /// gave: with it, `rerun-responses` takes them anew from the logs that there are, after a response or an
-  /// option of responses has changed. May return a doe::Failure, or throw.
-  std::function<doe::Outcome(const std::filesystem::path& log, const OptionValues& options)> responses = {};
-  /// Figures from the logs of all runs that succeeded, said first in summary and report.
-  HeadlineFunction headlines = {};
-  /// The cycles of a run, from its log: with them the report says what other hauls would change.
-  CycleFunction cycles = {};
-  /// Points with names, such as those of a source; the one called "reference" is what the recommendation is
-  /// compared with.
-  std::vector<Mark> marks = {};
-  /// What is claimed about the black box and whether its runs bear it out, said in summary and report.
-  std::function<std::vector<Finding>(const StudyResults& results)> findings = {};
+  Simulator simulator = {};
+  Logs logs = {};
+  Presentation presentation = {};
 };
 
 /// The whole command line. Returns the exit code: 0 success, 1 failure, 2 wrong usage, 130 interrupted.

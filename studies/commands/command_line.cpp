@@ -37,7 +37,7 @@ constexpr std::array<const char*, 21> commands = {
 
 /// Behind the program and the study's leading words.
 std::vector<std::string> typed_words(int argc, char** argv, const Study& study) {
-  return {argv + std::min(argc, 1 + static_cast<int>(study.leading_words.size())), argv + argc};
+  return {argv + std::min(argc, 1 + static_cast<int>(study.simulator.leading_words.size())), argv + argc};
 }
 
 /// `prog --runs 5` means `prog run --runs 5`.
@@ -67,7 +67,7 @@ std::string first_words(int count, char** argv) {
 
 /// What is typed before a command.
 std::string program_of(int argc, char** argv, const Study& study) {
-  return first_words(std::min(argc, 1 + static_cast<int>(study.leading_words.size())), argv);
+  return first_words(std::min(argc, 1 + static_cast<int>(study.simulator.leading_words.size())), argv);
 }
 
 /// Before the options that it sets: CLI11 takes them in this order, whatever was typed first.
@@ -163,7 +163,7 @@ void define_asking_commands(CLI::App& app, Parsed& parsed, const Study& study) {
       ->needs(confirm)
       ->check(CLI::Range(1, 100'000))
       ->capture_default_str();
-  ask->add_flag("--retry-failed", settings.retry_failed, "give the failed runs again");
+  ask->add_flag("--retry-failed", settings.execution.retry_failed, "give the failed runs again");
   add_run_options(*ask, settings, study.defaults);
   add_sampling_options(*ask, settings, study.defaults);
   add_study_options(*ask, study, settings.options, true);
@@ -173,14 +173,15 @@ void define_asking_commands(CLI::App& app, Parsed& parsed, const Study& study) {
   ask->callback([&] { parsed.action = [&] { return ask_command(study, settings); }; });
   auto* tell = app.add_subcommand("tell", "take what came out of runs made elsewhere");
   add_folder_options(*tell, settings);
-  tell->add_option("--file", settings.told,
+  tell->add_option("--file", settings.tell.table,
                    "table with the columns run and every response; status (done or failed), reason and "
                    "seconds if you like")
       ->required();
   auto* replace =
-      tell->add_flag("--replace", settings.replace,
+      tell->add_flag("--replace", settings.tell.replace,
                      "correct runs that have ended otherwise; what stood there is kept in the ledger");
-  tell->add_option("--why", settings.why, "with --replace: the reason, kept in the ledger")->needs(replace);
+  tell->add_option("--why", settings.tell.why, "with --replace: the reason, kept in the ledger")
+      ->needs(replace);
   show_example(*tell, app, study, " tell --file runs.csv");
   tell->callback([&] { parsed.action = [&] { return tell_command(study, settings); }; });
 }
@@ -202,7 +203,8 @@ void define_rerun_responses(CLI::App& app, Parsed& parsed, const Study& study) {
                                    "take the responses anew from the logs of another folder's runs, after "
                                    "one has changed; nothing is simulated");
   rerun
-      ->add_option("--from", parsed.settings.from, "folder of the study whose runs are taken; stays as it is")
+      ->add_option("--from", parsed.settings.rerun.from,
+                   "folder of the study whose runs are taken; stays as it is")
       ->required()
       ->check(folder_complaint);
   add_folder_options(*rerun, parsed.settings);
@@ -288,8 +290,8 @@ int parse_and_act(int argc, char** argv, const Study& study) {
   Parsed parsed;
   parsed.settings.out = parsed.point.out = std::filesystem::path("results") / study.name;
   parsed.settings.command = first_words(argc, argv);
-  parsed.settings.leading_words = study.leading_words;
-  parsed.settings.finish_log = study.finish_log;
+  parsed.settings.execution.leading_words = study.simulator.leading_words;
+  parsed.settings.execution.finish_log = study.logs.finish;
   const std::string program = parsed.settings.program = program_of(argc, argv, study);
   CLI::App app(study.about.empty() ? "Drawpoint study " + study.name : study.about, program);
   app.set_help_flag("-h,--help", "show this text; behind a command, its options");
@@ -336,7 +338,7 @@ void check_study(const Study& study) {
   doe::check(study.problem);
   check(study.options);
   check(study.presets, study.options);
-  check_marks(study.problem, study.marks);
+  check_marks(study.problem, study.presentation.marks);
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 
 namespace drawpoint::studies {
 int compare_command(const Study& study, const Settings& settings) {
-  const Folder folder_a{settings.out}, folder_b{settings.with};
+  const Folder folder_a{settings.out}, folder_b{settings.compare.with};
   const Store a = open_store(study, folder_a);
   const Store b = store_of_other_folder("compare", study, settings);
   const ComparedFolders compared = compare_folders(study, {folder_a, a}, {folder_b, b});

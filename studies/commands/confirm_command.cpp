@@ -40,7 +40,7 @@ bool has_unfinished_round(const std::vector<Run>& runs) {
 /// First what a stopped command left, then rounds.
 void confirm_front(Store& store, const Study& study, const Folder& folder, const Settings& settings) {
   const int messages = message_descriptor(settings);
-  store.plan_again(settings.retry_failed);
+  store.plan_again(settings.execution.retry_failed);
   bool added = has_unfinished_round(store.runs());
   carry_out_runs(store, folder, settings, messages);
   for (int round = 1; round <= settings.confirm.rounds; ++round, added = false) {

@@ -49,7 +49,7 @@ ExportTable table_of(const Study& study, const Store& store, const Folder& folde
 
 int export_command(const Study& study, const Settings& settings) {
   const Folder folder{settings.out};
-  if (settings.exported.what == "findings" && !study.findings)
+  if (settings.exported.what == "findings" && !study.presentation.findings)
     throw UsageError("--what findings: this study has none to hold its runs against; give runs or front");
   const Store store = open_store(study, folder);
   ExportSettings wanted = settings.exported;

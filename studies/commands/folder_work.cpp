@@ -63,7 +63,7 @@ void begin_runs(const Study& study, const Store& store, const Settings& settings
   const int messages = message_descriptor(settings);
   const std::vector<Run> runs = store.runs();
   const bool resumes = std::any_of(runs.begin(), runs.end(), has_ended);
-  if (!resumes && !study.simulator_note.empty()) dprintf(messages, "%s\n", study.simulator_note.c_str());
+  if (!resumes && !study.simulator.note.empty()) dprintf(messages, "%s\n", study.simulator.note.c_str());
   if (!resumes || (!more && std::all_of(runs.begin(), runs.end(), has_ended))) return;
   spot_check(store, Folder{settings.out}, settings, messages);
 }

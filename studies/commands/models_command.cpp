@@ -21,7 +21,7 @@ doe::Evaluations validation_runs_of_other_folder(const Study& study, const Setti
                                                  const Identity& own) {
   const Store store = store_of_other_folder("validate", study, settings);
   const Identity& other = store.identity();
-  const std::string name = settings.with.string();
+  const std::string name = settings.compare.with.string();
   const std::string differs = difference(other.options, own.options, false);
   if (!differs.empty())
     throw UsageError("validate: the runs of " + name + " are not those of " + settings.out.string() + ": " +
@@ -61,7 +61,7 @@ int fit_command(const Study& study, const Settings& settings) {
 int validate_command(const Study& study, const Settings& settings) {
   const Store store = open_store(study, Folder{settings.out});
   Tables tables = tables_of(store.runs(), study.problem);
-  if (!settings.with.empty())
+  if (!settings.compare.with.empty())
     tables.validation = validation_runs_of_other_folder(study, settings, store.identity());
   const Models fitted = models_or_reason(tables);
   if (fitted.validations.empty())

@@ -39,8 +39,8 @@ Batch chosen_batch(const Store& store, const std::vector<Run>& runs) {
 }  // namespace
 
 void check_request(const Study& study, const Settings& settings) {
-  if (settings.criteria) check_criteria(*settings.criteria, study.problem);
-  if (settings.until) stop_rule_from(*settings.until, study.problem);
+  if (settings.plan.criteria) check_criteria(*settings.plan.criteria, study.problem);
+  if (settings.plan.until) stop_rule_from(*settings.plan.until, study.problem);
   if (!std::filesystem::exists(Folder{settings.out}.store())) check_new_study(study, settings);
 }
 
@@ -91,7 +91,7 @@ bool add_round(Store& store, const Study& study, const ConfirmSettings& settings
   {
     const EndsAtOnce now;
     plan = plan_round(store.identity(), runs, named_points(store.identity().problem, settings),
-                      settings.points, with_marks(study.marks, store.marks()));
+                      settings.points, with_marks(study.presentation.marks, store.marks()));
   }
   if (round == 1 || plan.runs.empty())
     for (const std::string& known : plan.known)

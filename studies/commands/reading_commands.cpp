@@ -59,7 +59,8 @@ void add_predict_options(CLI::App& command, Settings& settings, const doe::Probl
 
 void add_compare_options(CLI::App& command, Settings& settings) {
   command
-      .add_option("--with", settings.with, "folder B of the same study; --out is A, and neither is changed")
+      .add_option("--with", settings.compare.with,
+                  "folder B of the same study; --out is A, and neither is changed")
       ->required()
       ->check(folder_complaint);
   command.footer(
@@ -71,7 +72,7 @@ void add_compare_options(CLI::App& command, Settings& settings) {
 
 void add_validate_options(CLI::App& command, Settings& settings) {
   command
-      .add_option("--with", settings.with,
+      .add_option("--with", settings.compare.with,
                   "folder of the same study and options whose validation runs are taken in place of those of "
                   "--out, so that several studies are judged by the same runs; neither is changed")
       ->check(folder_complaint);
@@ -114,7 +115,7 @@ void add_open_options(CLI::App& command, Settings& settings) {
 
 void add_recommend_options(CLI::App& command, Settings& settings, const doe::Problem& problem) {
   command
-      .add_option("--against", settings.against,
+      .add_option("--against", settings.recommend.against,
                   "a point, as NAME=VALUE,..., to compare with, and to be no worse than where that can be "
                   "(default: the middle of the box)")
       ->check([](const std::string& text) { return text.empty() ? "give NAME=VALUE,... of a point" : ""; });

@@ -24,9 +24,9 @@ int recommend_command(const Study& study, const Settings& settings) {
   input.going_on.program = settings.program;
   input.going_on.folder = out_option(Folder{settings.out});
   const Reference against =
-      settings.against.empty()
+      settings.recommend.against.empty()
           ? reference_of(study.problem, input.marks)
-          : Reference{"the reference", point_named(study.problem, "--against", settings.against)};
+          : Reference{"the reference", point_named(study.problem, "--against", settings.recommend.against)};
   input.recommended = recommend(input, against);
   const RecommendedTable table = recommended_table(input);
   if (settings.json) {

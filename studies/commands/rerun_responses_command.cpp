@@ -55,12 +55,12 @@ void write_folder(const Folder& to, const Folder& from, const Identity& identity
 }  // namespace
 
 int rerun_responses_command(const Study& study, const Settings& settings) {
-  if (!study.responses)
+  if (!study.logs.responses)
     throw UsageError(
         "rerun-responses: this study does not say how its responses follow from a run's log "
         "(Study::responses), so "
         "only new runs give them");
-  const Folder from{settings.from}, to{without_slash(settings.out)};
+  const Folder from{settings.rerun.from}, to{without_slash(settings.out)};
   check_folders(from, to);
   const Store source = Store::open(from.store());
   require_same_simulation(study, source.identity(), settings.options);

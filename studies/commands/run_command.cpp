@@ -50,8 +50,8 @@ std::string left_out_text(const std::vector<Run>& runs, int adaptive_points) {
 
 /// Whole seconds in which a run fits, and with it the one that is made again on resume.
 std::string enough_seconds(const Budget& budget, const Settings& settings) {
-  return std::to_string(static_cast<long>(std::ceil(budget.mean_seconds() * (settings.spot_check ? 2 : 1))) +
-                        1);
+  return std::to_string(
+      static_cast<long>(std::ceil(budget.mean_seconds() * (settings.execution.spot_check ? 2 : 1))) + 1);
 }
 
 /// Where the budget left something out, it is kept with the study, whose last words say it. `begun`: whether this
@@ -62,7 +62,7 @@ void remember_what_is_left_out(Store& store, const Budget& budget, bool begun, c
   const int adaptive = sampling.stopped.enough ? 0 : sampling.points - count_points(runs, Kind::adaptive);
   const std::string left_out = left_out_text(runs, adaptive);
   if (left_out.empty() || budget.has_room()) return;
-  if (begun || budget.runs() == 0 || settings.slurm)
+  if (begun || budget.runs() == 0 || settings.execution.slurm)
     sampling.stopped = {.why = "the budget of " + budget.text() + " is spent: left out are " + left_out,
                         .go_on = "give the same command again"};
   else
@@ -79,11 +79,11 @@ void remember_what_is_left_out(Store& store, const Budget& budget, bool begun, c
 int run_command(const Study& study, const Settings& settings) {
   require_simulator(study);
   const auto start = Clock::now();
-  Budget budget(settings.budget);
+  Budget budget(settings.execution.budget);
   const auto time_is_up = [&]() -> std::string {
     if (!budget.has_room()) return "the budget of " + budget.text() + " is spent";
     const bool in_time =
-        std::chrono::duration<double>(Clock::now() - start).count() < 3600.0 * settings.hours;
+        std::chrono::duration<double>(Clock::now() - start).count() < 3600.0 * settings.plan.hours;
     return in_time ? "" : "--hours is over";
   };
   check_request(study, settings);

@@ -22,7 +22,7 @@ std::string options_of(const Study& study, const Store& store) {
 
 nlohmann::ordered_json marks_json(const Study& study, const Store& store) {
   nlohmann::ordered_json all = nlohmann::ordered_json::object();
-  for (const Mark& mark : with_marks(study.marks, store.marks()))
+  for (const Mark& mark : with_marks(study.presentation.marks, store.marks()))
     for (std::size_t k = 0; k < study.problem.variables.size(); ++k)
       all[mark.name][study.problem.variables[k].name] = mark.x[static_cast<Eigen::Index>(k)];
   return all;
@@ -70,7 +70,7 @@ void print(const Study& study, const Store& store, const Folder& folder, const C
   if (const std::string options = options_of(study, store); !options.empty())
     std::printf("options: %s\n", options.c_str());
   std::string marks;
-  for (const Mark& mark : with_marks(study.marks, store.marks())) marks += " " + mark_text(mark);
+  for (const Mark& mark : with_marks(study.presentation.marks, store.marks())) marks += " " + mark_text(mark);
   if (!marks.empty()) std::printf("marks:%s\n", marks.c_str());
   std::printf("time in runs: %s\n", duration_text(counts.seconds).c_str());
   if (const std::size_t corrections = store.corrections().size(); corrections > 0)

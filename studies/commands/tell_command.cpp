@@ -12,7 +12,7 @@
 namespace drawpoint::studies {
 
 int tell_command(const Study& study, const Settings& settings) {
-  if (settings.replace && settings.why.find_first_not_of(" \t\n") == std::string::npos)
+  if (settings.tell.replace && settings.tell.why.find_first_not_of(" \t\n") == std::string::npos)
     throw UsageError("tell --replace: say why with --why TEXT; it is kept in the ledger of corrections");
   const Folder folder{settings.out};
   open_store(study, folder);  // refused before anything is locked
@@ -20,10 +20,10 @@ int tell_command(const Study& study, const Settings& settings) {
   const FolderLock lock(folder);
   Store store = open_store(study, folder);
   const auto [told, left_alone] =
-      told_outcomes(settings.told, store.identity().problem, store.runs(), settings.replace);
+      told_outcomes(settings.tell.table, store.identity().problem, store.runs(), settings.tell.replace);
   for (const ToldOutcome& outcome : told) {
     if (outcome.replaces)
-      store.replace(outcome.run, outcome.y, outcome.reason, outcome.seconds, settings.why);
+      store.replace(outcome.run, outcome.y, outcome.reason, outcome.seconds, settings.tell.why);
     else if (outcome.y.size() > 0)
       store.save_done(outcome.run, outcome.y, outcome.seconds);
     else

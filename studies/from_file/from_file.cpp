@@ -43,7 +43,7 @@ int of_any_study(const std::string& program, const std::string& question) {
                            .problem = {.variables = {{"VALUE", "1", 0, 1}}, .responses = {{"RESPONSE", "1"}}},
                            .black_box = [](const Eigen::VectorXd&) { return doe::Failure{"no study"}; },
                            .about = about,
-                           .leading_words = {"STUDY.json"}};
+                           .simulator = {.leading_words = {"STUDY.json"}}};
   return run_study({program, "STUDY.json", question}, any);
 }
 

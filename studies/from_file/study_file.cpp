@@ -335,7 +335,7 @@ Study study_from(const std::string& word) {
                  "version", "attempts", "time_limit", "defaults", "marks"});
   Study study{.name = in.text("name"), .problem = problem_from(in), .about = in.text("about", "")};
   if (in.has("defaults")) study.defaults = defaults_from(in.section("defaults"));
-  if (in.has("marks")) study.marks = marks_from(in, study.problem);
+  if (in.has("marks")) study.presentation.marks = marks_from(in, study.problem);
   const bool elsewhere = !in.has("command");
   for (const char* key : {"attempts", "time_limit", "exchange", "files", "version"})
     if (elsewhere && in.has(key))
@@ -343,12 +343,12 @@ Study study_from(const std::string& word) {
               "\" is of a command, and there is none; give \"command\", or leave it out: then runs are made "
               "elsewhere");
   const Command command = elsewhere ? Command{} : command_from(in, fs::absolute(file).parent_path());
-  study.simulator_note = command.note;
+  study.simulator.note = command.note;
   const std::string checksum = doe::detail::checksum(content.dump() + command.simulator);
   if (!expected.empty() && expected != checksum)
     in.fail("it or its program changed while the study ran; give the command again, with --retry-failed");
-  study.simulator = command.simulator;
-  study.leading_words = {"@" + checksum + ":" + fs::absolute(file).string()};
+  study.simulator.name = command.simulator;
+  study.simulator.leading_words = {"@" + checksum + ":" + fs::absolute(file).string()};
   if (elsewhere) return study;
   const ExternalProgram program{.command = command.words,
                                 .time_limit = in.number("time_limit", 0.0),

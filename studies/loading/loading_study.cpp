@@ -49,25 +49,25 @@ Study study_of(const LoadingStudy& loading) {
           .defaults = loading.defaults,
           .options = loading.options,
           .options_complaint = loading_options_complaint,
-          .simulator = engine::loading::simulator,
-          .libraries = engine::loading::libraries(),
           .prepare =
               [loading](const RunContext& run) {
                 settle_pile(loading.scenario(middle_of(loading.problem), run));
               },
-          .illustrate = loading_figures,
-          .replay = loading_replay,
-          .finish_log = engine::loading::join_parts,
-          .contrast = loading_contrasts,
-          .responses =
-              [loading](const std::filesystem::path& log, const OptionValues& options) {
-                return responses_of(loading, engine::loading::read_log(log, loading.content), options);
-              },
-          .headlines =
-              [loading](const std::vector<std::filesystem::path>& logs, const OptionValues& options) {
-                return headlines_of(loading.problem, loading_headlines(logs, options));
-              },
-          .cycles = loading_cycles};
+          .simulator = {.name = engine::loading::simulator, .libraries = engine::loading::libraries()},
+          .logs = {.finish = engine::loading::join_parts,
+                   .responses =
+                       [loading](const std::filesystem::path& log, const OptionValues& options) {
+                         return responses_of(loading, engine::loading::read_log(log, loading.content),
+                                             options);
+                       },
+                   .cycles = loading_cycles},
+          .presentation = {.illustrate = loading_figures,
+                           .replay = loading_replay,
+                           .contrast = loading_contrasts,
+                           .headlines = [loading](const std::vector<std::filesystem::path>& logs,
+                                                  const OptionValues& options) {
+                             return headlines_of(loading.problem, loading_headlines(logs, options));
+                           }}};
 }
 
 std::vector<StudyOption> loading_options_without(const std::set<std::string>& names) {

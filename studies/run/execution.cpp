@@ -111,7 +111,8 @@ bool was_made(const Run& run) { return run.status == Status::done && run.kind !=
 /// Those of runs that were not ended together with this process. (Slurm's tasks have signals of their own.)
 std::vector<doe::ProcessEnd> ends_of_runs(Workers& workers, const Settings& settings) {
   std::vector<doe::ProcessEnd> ends = workers.wait(patience);
-  const bool stopped = !settings.slurm && std::any_of(ends.begin(), ends.end(), ended_by_stop_signal);
+  const bool stopped =
+      !settings.execution.slurm && std::any_of(ends.begin(), ends.end(), ended_by_stop_signal);
   if (stopped && soon(InterruptGuard::requested)) std::erase_if(ends, ended_by_stop_signal);
   return ends;
 }
@@ -166,7 +167,7 @@ void prepare_shared(const Study& study, const OptionValues& options, const Folde
   doe::ProcessPool pool(1);
   pool.start(
       {.executable = own_executable(),
-       .arguments = whole_line(study.leading_words,
+       .arguments = whole_line(study.simulator.leading_words,
                                {"prepare", "--shared=" + draft.string(), "--result-descriptor=3"}, options),
        .output = printed});
   std::vector<doe::ProcessEnd> ends;
@@ -203,21 +204,21 @@ int carry_out_runs(Store& store, const Folder& folder, const Settings& settings,
   if (InterruptGuard::requested()) throw Interrupted{};
   if (waiting.empty()) return 0;
   if (!budget.text().empty()) share_out(waiting, runs);
-  if (settings.slurm) {
+  if (settings.execution.slurm) {
     require_own_file();
     dprintf(message_descriptor, "%zu runs go to Slurm\n", waiting.size());
   }
   const std::unique_ptr<Workers> workers = workers_for(folder, settings, message_descriptor);
   Progress progress(message_descriptor, state_of(runs));
   int left_out = 0;
-  FirstFailures first(settings.keep_going || std::any_of(runs.begin(), runs.end(), was_made));
+  FirstFailures first(settings.execution.keep_going || std::any_of(runs.begin(), runs.end(), was_made));
   while (!waiting.empty() || workers->running() > 0 || InterruptGuard::requested()) {
     if (InterruptGuard::requested()) {
       workers->leave();
       store.plan_again(false);
       throw Interrupted{};
     }
-    if (settings.slurm && budget.seconds_left() <= 0.0) {
+    if (settings.execution.slurm && budget.seconds_left() <= 0.0) {
       workers->leave();
       store.plan_again(false);
       return static_cast<int>(waiting.size()) + workers->running();

@@ -13,7 +13,7 @@ namespace {
 
 std::string how_made_again(const Study& study, const Identity& identity, const Folder& folder,
                            const std::string& run, const std::string& log) {
-  if (study.simulator != identity.simulator)
+  if (study.simulator.name != identity.simulator)
     return "only the program that made this folder, " + named(identity.simulator) + ", makes it again";
   return "make it again with evaluate --run " + run + " --out " +
          doe::detail::quoted_for_shell(folder.path.string()) + " --log " +
@@ -57,13 +57,13 @@ std::vector<const Run*> runs_with_log(const Study& study, const Identity& identi
 std::vector<Headline> headlines_of(const Study& study, const std::vector<const Run*>& runs,
                                    const OptionValues& options, const Folder& folder,
                                    std::vector<std::string>& warnings) {
-  if (!study.headlines) return {};
+  if (!study.presentation.headlines) return {};
   std::vector<std::filesystem::path> logs;
   for (const Run* run : runs) {  // those that are spread over the whole box
     if (run->kind == Kind::training || run->kind == Kind::validation) logs.push_back(folder.log(run->id));
   }
   try {
-    return study.headlines(logs, options);
+    return study.presentation.headlines(logs, options);
   } catch (const std::exception& e) {
     warnings.push_back(std::string("What the study says first could not be told: ") + e.what());
     return {};

@@ -36,7 +36,7 @@ void take_anew(const Study& study, const Folder& from, const OptionValues& optio
   }
   if (run.log.empty()) return;  // failed before it wrote one
   const doe::Outcome outcome = doe::detail::checked(
-      doe::detail::guarded<doe::Outcome>([&] { return study.responses(from.log(run.id), options); }),
+      doe::detail::guarded<doe::Outcome>([&] { return study.logs.responses(from.log(run.id), options); }),
       study.problem);
   if (outcome.failed() && run.status == Status::failed) return;  // what it failed of then says more
   run.status = outcome.failed() ? Status::failed : Status::done;

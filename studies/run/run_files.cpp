@@ -52,7 +52,7 @@ std::string publish_log(const Folder& folder, const Settings& settings, std::int
   if (!fs::exists(fs::symlink_status(draft, ignored))) return "";
   require_log(draft);
   try {
-    if (settings.finish_log) settings.finish_log(draft);
+    if (settings.execution.finish_log) settings.execution.finish_log(draft);
   } catch (const std::exception&) {  // the run stands without the rest of its log
   }
   require_log(draft);

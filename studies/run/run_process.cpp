@@ -41,13 +41,13 @@ doe::Process process_of_run(const Run& run, const Folder& given, const OptionVal
   return {
       .id = run.id,
       .executable = own_executable(),
-      .arguments = whole_line(settings.leading_words,
+      .arguments = whole_line(settings.execution.leading_words,
                               {"evaluate", "--x=" + typed_values(run.x), "--seed=" + std::to_string(run.seed),
                                "--log=" + folder.unfinished_log(run.id).string(),
                                "--shared=" + folder.shared().string(), "--result-descriptor=3"},
                               options),
       .output = folder.printed(run.id),
-      .time_limit = settings.time_limit};
+      .time_limit = settings.execution.time_limit};
 }
 
 }  // namespace drawpoint::studies

@@ -33,7 +33,7 @@ std::string response_options(const Study& study, const OptionValues& stored) {
 /// More runs would have responses that those of the folder lack.
 [[noreturn]] void refuse_earlier(const Study& study, const Folder& folder, const OptionValues& stored) {
   std::string how = "begin another folder with --out";
-  if (study.responses)
+  if (study.logs.responses)
     how = "take them from the logs with rerun-responses --from " +
           doe::detail::quoted_for_shell(folder.path.string()) + response_options(study, stored) +
           " --out NEW, and go on in NEW, or " + how;
@@ -44,13 +44,13 @@ std::string response_options(const Study& study, const OptionValues& stored) {
 }
 
 void require_same_options(const Identity& stored, const Settings& settings, const Folder& folder) {
-  if (settings.seed && *settings.seed != stored.seed) {
+  if (settings.plan.seed && *settings.plan.seed != stored.seed) {
     refuse_folder(folder, "seed " + std::to_string(stored.seed) + " there, " +
-                              std::to_string(*settings.seed) + " here");
+                              std::to_string(*settings.plan.seed) + " here");
   }
-  if (settings.replicates && *settings.replicates != stored.replicates) {
+  if (settings.plan.replicates && *settings.plan.replicates != stored.replicates) {
     refuse_folder(folder, "replicates " + std::to_string(stored.replicates) + " there, " +
-                              std::to_string(*settings.replicates) + " here");
+                              std::to_string(*settings.plan.replicates) + " here");
   }
   const std::string other = difference(stored.options, settings.options, true);
   if (!other.empty()) refuse_folder(folder, other);
@@ -70,14 +70,14 @@ void require_no_logs(const Folder& folder) {
 
 Store new_store(const Study& study, const Folder& folder, const Settings& settings) {
   require_no_logs(folder);
-  const int runs = settings.runs.value_or(study.defaults.runs);
+  const int runs = settings.plan.runs.value_or(study.defaults.runs);
   return Store::create(folder.store(), {.study = study.name,
                                         .problem = study.problem,
-                                        .seed = settings.seed.value_or(1),
-                                        .replicates = settings.replicates.value_or(1),
+                                        .seed = settings.plan.seed.value_or(1),
+                                        .replicates = settings.plan.replicates.value_or(1),
                                         .corners = has_corners(study.problem, runs),
                                         .options = with_defaults(study.options, settings.options),
-                                        .simulator = study.simulator});
+                                        .simulator = study.simulator.name});
 }
 
 void check_target(double target, const std::string& until, int validation) {
@@ -87,7 +87,7 @@ void check_target(double target, const std::string& until, int validation) {
 }
 
 void check_something_to_stop(const Settings& settings, int adaptive) {
-  if (settings.until && !settings.until->empty() && adaptive == 0)
+  if (settings.plan.until && !settings.plan.until->empty() && adaptive == 0)
     throw UsageError(
         "--until: with --adaptive 0 there are no runs to stop; leave it out, or give the most that may be "
         "made");
@@ -111,8 +111,9 @@ void check_runs(int runs, const std::vector<Run>& all) {
 /// With the points of a table made elsewhere.
 void add_imported(const Settings& settings, const doe::Problem& problem, const std::vector<Run>& existing,
                   std::vector<Run>& added) {
-  if (settings.imported.empty()) return;
-  const std::vector<Run> imported = imported_runs(settings.imported, problem, everything(existing, added));
+  if (settings.plan.imported.empty()) return;
+  const std::vector<Run> imported =
+      imported_runs(settings.plan.imported, problem, everything(existing, added));
   added.insert(added.end(), imported.begin(), imported.end());
 }
 
@@ -123,15 +124,15 @@ struct Points {
 /// What is given, else what the folder or the study has. Throws UsageError for what cannot be.
 Sampling sampling_of(Sampling kept, const Settings& settings, const std::vector<Run>& existing,
                      const Points& points) {
-  kept.until = settings.until.value_or(kept.until);
+  kept.until = settings.plan.until.value_or(kept.until);
   kept.stopped = {};
-  if (settings.until && !kept.until.empty() && kept.points == 0)
+  if (settings.plan.until && !kept.until.empty() && kept.points == 0)
     kept.points = adaptive_per_training_point * points.training;
-  kept.points = settings.adaptive.value_or(kept.points);
+  kept.points = settings.plan.adaptive.value_or(kept.points);
   check_something_to_stop(settings, kept.points);
-  kept.batch = settings.batch.value_or(kept.batch);
-  kept.criteria = settings.criteria.value_or(kept.criteria);
-  kept.target = settings.target.value_or(kept.target);
+  kept.batch = settings.plan.batch.value_or(kept.batch);
+  kept.criteria = settings.plan.criteria.value_or(kept.criteria);
+  kept.target = settings.plan.target.value_or(kept.target);
   refuse_to_shrink(count_points(existing, Kind::adaptive), kept.points, "--adaptive", "adaptive");
   check_target(kept.target, kept.until, points.validation);
   return kept;
@@ -159,7 +160,7 @@ Study as_begun(const Study& study, const Folder& folder) {
   const auto before = before_later_responses(*stored, study.problem);
   if (!before) return then;
   then.problem = *before;
-  then.simulator += ", with more responses";  // none of its runs can be added
+  then.simulator.name += ", with more responses";  // none of its runs can be added
   return then;
 }
 
@@ -213,10 +214,10 @@ std::string named(const std::string& simulator) {
 
 void require_same_simulator(const Study& study, const Store& store, const Folder& folder) {
   const std::string& stored = store.identity().simulator;
-  if (stored == study.simulator || study.simulator.starts_with(stored + files_beside_it)) return;
+  if (stored == study.simulator.name || study.simulator.name.starts_with(stored + files_beside_it)) return;
   throw UsageError(
       "studies: the runs of " + folder.path.string() + " were made by " + named(stored) +
-      ", and new ones would be by " + named(study.simulator) +
+      ", and new ones would be by " + named(study.simulator.name) +
       ": one model does not take both. report, front, replay, compare, export and rerun-responses read this "
       "folder as ever; for new runs begin a study with another --out, or take the program as it was when the "
       "folder was made");
@@ -232,10 +233,10 @@ void check_new_study(const Study& study, const Settings& settings) {
   check_options(study, settings.options);
   std::vector<Run> imported;
   add_imported(settings, study.problem, {}, imported);
-  check_runs(settings.runs.value_or(study.defaults.runs), imported);
-  check_something_to_stop(settings, settings.adaptive.value_or(1));
-  check_target(settings.target.value_or(0.0), settings.until.value_or(""),
-               settings.validation.value_or(study.defaults.validation));
+  check_runs(settings.plan.runs.value_or(study.defaults.runs), imported);
+  check_something_to_stop(settings, settings.plan.adaptive.value_or(1));
+  check_target(settings.plan.target.value_or(0.0), settings.plan.until.value_or(""),
+               settings.plan.validation.value_or(study.defaults.validation));
 }
 
 Store plan_study(const Study& study, const Folder& folder, const Settings& settings) {
@@ -245,16 +246,16 @@ Store plan_study(const Study& study, const Folder& folder, const Settings& setti
   const std::vector<Run> existing = store.runs();
   const bool resumes = !existing.empty();
   const int runs =
-      settings.runs.value_or(resumes ? count_points(existing, Kind::training) : study.defaults.runs);
-  const int validation = settings.validation.value_or(resumes ? count_points(existing, Kind::validation)
-                                                              : study.defaults.validation);
+      settings.plan.runs.value_or(resumes ? count_points(existing, Kind::training) : study.defaults.runs);
+  const int validation = settings.plan.validation.value_or(resumes ? count_points(existing, Kind::validation)
+                                                                   : study.defaults.validation);
   auto added = runs_to_add(store.identity(), existing, runs, validation);
   add_imported(settings, study.problem, existing, added);
   check_runs(runs, everything(existing, added));
   Sampling kept = store.sampling();
   if (!resumes) kept.points = study.defaults.adaptive;
   const Sampling sampling = sampling_of(kept, settings, existing, {runs, validation});
-  store.plan_again(settings.retry_failed);
+  store.plan_again(settings.execution.retry_failed);
   store.set_sampling(sampling);
   store.add(added);
   return store;

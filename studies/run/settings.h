@@ -96,10 +96,30 @@ struct LiveSettings {
   int port = 0;  ///< of 127.0.0.1; 0: any that is free
 };
 
-/// Options of the commands that work on an output folder: run, confirm, status, report and their like.
-struct Settings {
-  std::filesystem::path out = {};
-  std::filesystem::path from = {};     ///< of rerun-responses: the folder whose runs are taken
+/// Options of `tell`.
+struct TellSettings {
+  std::filesystem::path table = {};
+  bool replace = false;  ///< runs that have ended otherwise are corrected
+  std::string why = {};  ///< with replace
+};
+
+/// Options of `recommend`.
+struct RecommendSettings {
+  std::string against = {};  ///< a point as NAME=VALUE,...; empty: the middle of the box
+};
+
+/// Options of `compare`.
+struct CompareSettings {
+  std::filesystem::path with = {};  ///< the folder that `out` is compared with
+};
+
+/// Options of `rerun-responses`.
+struct RerunSettings {
+  std::filesystem::path from = {};  ///< the folder whose runs are taken
+};
+
+/// Which runs a study makes.
+struct PlanSettings {
   std::optional<int> runs = {};        ///< training points, 2 or more
   std::optional<int> validation = {};  ///< validation points, 0 or more
   std::optional<int> replicates = {};  ///< runs per training point, each with a seed of its own, 1 or more
@@ -108,40 +128,50 @@ struct Settings {
   std::optional<int> batch = {};       ///< adaptive points chosen together, 1 or more
   std::optional<std::string> criteria = {};  ///< who chooses them: model/sampling/criteria.h
   std::optional<double> target = {};         ///< error of the mean at which to stop choosing; 0: none
-  std::filesystem::path imported = {};       ///< table of points made elsewhere; empty: none
-  double hours = std::numeric_limits<double>::infinity();  ///< after which no batch is begun
   std::optional<std::string> until =
-      {};                   ///< errors at which to stop choosing: model/fits/stop_rule.h; "": none
-  std::string budget = {};  ///< wall time of a command, run/budget.h; empty: no end
-  ConfirmSettings confirm = {};
-  AskSettings ask = {};
-  std::filesystem::path told = {};  ///< of tell: the table
-  bool replace = false;             ///< of tell: runs that have ended otherwise are corrected
-  std::string why = {};             ///< with replace
-  ExcludeSettings exclude = {};
-  ExportSettings exported = {};
-  FrontSettings front = {};
-  PredictSettings predict = {};
-  ReplaySettings replay = {};
-  ShareSettings share = {};
-  std::string against = {};  ///< of recommend: a point as NAME=VALUE,...; empty: the middle of the box
-  LiveSettings live = {};
-  std::vector<std::string> marks = {};  ///< NAME=VALUE,..., points to show in the report
-  std::filesystem::path with = {};      ///< of compare: the folder that `out` is compared with
-  OptionValues options = {};            ///< of the study, those given
-  std::optional<int> jobs = {};         ///< processes or tasks at a time, 1 or more; empty: all there are
-  bool slurm = false;                   ///< runs are tasks on a Slurm cluster
+      {};  ///< errors at which to stop choosing: model/fits/stop_rule.h; "": none
+  std::filesystem::path imported = {};                     ///< table of points made elsewhere; empty: none
+  double hours = std::numeric_limits<double>::infinity();  ///< after which no batch is begun
+};
+
+/// How runs are made.
+struct ExecutionSettings {
+  std::optional<int> jobs = {};  ///< processes or tasks at a time, 1 or more; empty: all there are
+  bool slurm = false;            ///< runs are tasks on a Slurm cluster
   std::vector<std::string> slurm_options = {};  ///< words for sbatch
   int slurm_array = 0;                          ///< tasks of one job array; 0: as many as Slurm takes
   double time_limit = 0.0;                      ///< [s] a run may take; 0 means no limit
+  std::string budget = {};                      ///< wall time of a command, run/budget.h; empty: no end
   bool retry_failed = false;
-  bool keep_going = false;  ///< though the first runs all fail alike
-  bool spot_check = true;   ///< on resume, one run is made again and compared
-  bool json = false;  ///< last line of standard output is one JSON object, the rest goes to standard error
-  std::string program = {};                     ///< what was typed before the command, for advice
-  std::string command = {};                     ///< the command line as typed, for the report
+  bool keep_going = false;                      ///< though the first runs all fail alike
+  bool spot_check = true;                       ///< on resume, one run is made again and compared
   std::vector<std::string> leading_words = {};  ///< of the study, for its processes
   std::function<void(const std::filesystem::path& log)> finish_log = {};  ///< of the study
+};
+
+/// Options of the commands that work on an output folder: run, confirm, status, report and their like.
+struct Settings {
+  std::filesystem::path out = {};
+  OptionValues options = {};            ///< of the study, those given
+  std::vector<std::string> marks = {};  ///< NAME=VALUE,..., points to show in the report
+  bool json = false;  ///< last line of standard output is one JSON object, the rest goes to standard error
+  PlanSettings plan = {};
+  ExecutionSettings execution = {};
+  AskSettings ask = {};
+  CompareSettings compare = {};
+  ConfirmSettings confirm = {};
+  ExcludeSettings exclude = {};
+  ExportSettings exported = {};
+  FrontSettings front = {};
+  LiveSettings live = {};
+  PredictSettings predict = {};
+  RecommendSettings recommend = {};
+  ReplaySettings replay = {};
+  RerunSettings rerun = {};
+  ShareSettings share = {};
+  TellSettings tell = {};
+  std::string program = {};  ///< what was typed before the command, for advice
+  std::string command = {};  ///< the command line as typed, for the report
 };
 
 /// Options of `evaluate`, which runs one point in this process.

@@ -41,10 +41,11 @@ doe::ProcessEnd made_again(const Run& run, const Store& store, const Folder& fol
   again.id = checked_id;
   make_way(folder, checked_id);
   const doe::Process process = process_of_run(again, folder, store.identity().options, settings);
-  if (settings.slurm) {
+  if (settings.execution.slurm) {
     require_own_file();
     return end_on_cluster(
-        process, {.folder = folder.path / "slurm_check", .options = settings.slurm_options, .poll = 1.0});
+        process,
+        {.folder = folder.path / "slurm_check", .options = settings.execution.slurm_options, .poll = 1.0});
   }
   const doe::ProcessEnd end = end_of(process);
   if (ended_by_stop_signal(end) && soon(InterruptGuard::requested)) throw Interrupted{};
@@ -69,13 +70,13 @@ std::string complaint(const Run& run, const doe::Outcome& outcome, const doe::Pr
 }  // namespace
 
 void spot_check(const Store& store, const Folder& folder, const Settings& settings, int message_descriptor) {
-  if (!settings.spot_check) return;
+  if (!settings.execution.spot_check) return;
   const std::vector<Run> runs = store.runs();
   const Run* run = run_to_check(runs);
   if (run == nullptr) return;
   const std::string name = "run " + std::to_string(run->id);
   dprintf(message_descriptor, "making %s again%s, to see that the simulator is the same ...\n", name.c_str(),
-          settings.slurm ? " on the cluster" : "");
+          settings.execution.slurm ? " on the cluster" : "");
   const doe::ProcessEnd end = made_again(*run, store, folder, settings);
   const doe::Outcome outcome = run_end(end, folder.printed(checked_id)).outcome;
   drop_unfinished_log(folder, checked_id);

@@ -13,7 +13,7 @@
 
 namespace drawpoint::studies {
 
-/// Nothing where none is done, or settings.spot_check is off. Requires an InterruptGuard. Throws
+/// Nothing where none is done, or settings.execution.spot_check is off. Requires an InterruptGuard. Throws
 /// std::runtime_error that says what differs, Interrupted after a signal.
 void spot_check(const Store& store, const Folder& folder, const Settings& settings, int message_descriptor);
 

@@ -74,9 +74,9 @@ class SlurmWorkers : public Workers {
   SlurmWorkers(const Folder& folder, const Settings& settings)
       : folder_(folder.slurm()),
         jobs_({.folder = folder_,
-               .at_once = settings.jobs.value_or(0),
-               .per_array = settings.slurm_array,
-               .options = settings.slurm_options}) {}
+               .at_once = settings.execution.jobs.value_or(0),
+               .per_array = settings.execution.slurm_array,
+               .options = settings.execution.slurm_options}) {}
   bool full() const override { return false; }
   int running() const override { return jobs_.running(); }
   bool start(const doe::Process& process) override {
@@ -105,12 +105,12 @@ class SlurmWorkers : public Workers {
 }  // namespace
 
 std::unique_ptr<Workers> workers_for(const Folder& folder, const Settings& settings, int message_descriptor) {
-  if (settings.slurm) return std::make_unique<SlurmWorkers>(folder, settings);
+  if (settings.execution.slurm) return std::make_unique<SlurmWorkers>(folder, settings);
   if (const std::string arrays = arrays_of(folder); !arrays.empty())
     throw UsageError("studies: runs of " + folder.path.string() + " are with Slurm (" + arrays +
                      "); go on with --slurm, or end them with scancel --name=NAME for each and remove " +
                      folder.slurm().string());
-  return std::make_unique<LocalWorkers>(settings.jobs.value_or(cores()), message_descriptor);
+  return std::make_unique<LocalWorkers>(settings.execution.jobs.value_or(cores()), message_descriptor);
 }
 
 std::string arrays_of(const Folder& folder) {

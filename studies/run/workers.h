@@ -39,7 +39,7 @@ class Workers {
   virtual void finish() = 0;
 };
 
-/// Throws UsageError where runs of the folder are with Slurm and settings.slurm is off, std::runtime_error
+/// Throws UsageError where runs of the folder are with Slurm and settings.execution.slurm is off, std::runtime_error
 /// where there is no Slurm. Says through the descriptor where fewer processes run than were asked for.
 std::unique_ptr<Workers> workers_for(const Folder& folder, const Settings& settings, int message_descriptor);
 

@@ -68,13 +68,13 @@ void illustrate(ReportInput& input, const Study& study, const std::vector<const 
                 const OptionValues& options, const Folder& folder) {
   const int most_attempts = 5;
   input.illustrations = nlohmann::json::array();
-  if (!study.illustrate) return;
+  if (!study.presentation.illustrate) return;
   int attempts = 0;
   for (const Run* run : input.recommended ? runs_near(input.problem, input.recommended->x, runs)
                                           : good_runs(runs, study.problem)) {
     if (attempts++ == most_attempts) return;
     try {
-      input.illustrations = study.illustrate(folder.log(run->id), options);
+      input.illustrations = study.presentation.illustrate(folder.log(run->id), options);
       input.shown = why_shown(input, *run);
       input.facts.emplace_back("Run shown", std::to_string(run->id));
       return;
@@ -87,11 +87,11 @@ void illustrate(ReportInput& input, const Study& study, const std::vector<const 
 /// What cannot be told becomes a warning.
 void contrast(ReportInput& input, const Study& study, const std::vector<const Run*>& runs,
               const OptionValues& options, const Folder& folder) {
-  if (!study.contrast || runs.empty()) return;
+  if (!study.presentation.contrast || runs.empty()) return;
   std::vector<std::filesystem::path> logs;
   for (const Run* run : runs) logs.push_back(folder.log(run->id));
   try {
-    input.contrasts = study.contrast(logs, options);
+    input.contrasts = study.presentation.contrast(logs, options);
   } catch (const std::exception& e) {
     input.warnings.push_back(std::string("Runs could not be set against each other: ") + e.what());
   }

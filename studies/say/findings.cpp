@@ -68,9 +68,9 @@ StudyResults results_of(const ReportInput& input, const std::vector<const Run*>&
 std::vector<Finding> hold_findings(ReportInput& input, const Study& study,
                                    const std::vector<const Run*>& logged, const OptionValues& options,
                                    const Folder& folder) {
-  if (!study.findings) return {};
+  if (!study.presentation.findings) return {};
   try {
-    return input.findings = study.findings(results_of(input, logged, options, folder));
+    return input.findings = study.presentation.findings(results_of(input, logged, options, folder));
   } catch (const std::exception& e) {
     input.warnings.push_back(std::string("The findings could not be held against the runs: ") + e.what());
     return {};
@@ -88,7 +88,7 @@ ExportTable findings_table(const Study& study, const Store& store, const Folder&
                                 {"verdict", "", ColumnType::text, "reproduced, not reproduced or unclear"},
                                 {"grounds", "", ColumnType::text, "what decided, or why nothing could"}},
                     .rows = {}};
-  for (const Finding& f : study.findings(results_of(input, logged, options, folder)))
+  for (const Finding& f : study.presentation.findings(results_of(input, logged, options, folder)))
     table.rows.push_back({f.id, f.claim, to_string(f.verdict), f.grounds});
   return table;
 }

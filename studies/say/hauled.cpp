@@ -31,14 +31,14 @@ WorkOfRun work_of(const Run& run, const CycleWork& cycles, const doe::Problem& p
 
 void add_hauls(ReportInput& input, const Study& study, const std::vector<const Run*>& logged,
                const OptionValues& options, const Folder& folder) {
-  if (!study.cycles || logged.empty()) return;
+  if (!study.logs.cycles || logged.empty()) return;
   std::vector<WorkOfRun> work;
   CycleWork last;
   std::string why;
   int lost = 0;
   for (const Run* run : logged) {
     try {
-      last = study.cycles(folder.log(run->id), options);
+      last = study.logs.cycles(folder.log(run->id), options);
       work.push_back(work_of(*run, last, study.problem));
     } catch (const std::exception& e) {
       if (lost++ == 0) why = "run " + std::to_string(run->id) + ": " + e.what();

@@ -49,14 +49,14 @@ ReportInput input_of(const Study& study, const Store& store, const std::vector<R
   input.study = study.name;
   input.about = study.about;
   input.problem = study.problem;
-  input.marks = with_marks(study.marks, store.marks());
+  input.marks = with_marks(study.presentation.marks, store.marks());
   Tables tables = tables_of(runs, study.problem);
   input.warnings = tables.thinned;
   input.training = std::move(tables.training);
   input.validation = std::move(tables.validation);
   input.kinds = kinds_of(runs);
   input.confirming = confirming_command(study);
-  input.going_on = {.possible = store.identity().simulator == study.simulator,
+  input.going_on = {.possible = store.identity().simulator == study.simulator.name,
                     .making = making_command(study),
                     .training = count_points(runs, Kind::training),
                     .validation = count_points(runs, Kind::validation),

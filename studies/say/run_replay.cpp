@@ -3,6 +3,7 @@
 #include <drawpoint/studies/model/fits/tables.h>
 #include <drawpoint/studies/model/fits/words.h>
 #include <drawpoint/studies/run/logged_runs.h>
+#include <drawpoint/studies/run/settings.h>
 #include <drawpoint/studies/run/store/run_logs.h>
 #include <drawpoint/studies/say/facts.h>
 #include <drawpoint/studies/say/page/cycles.h>
@@ -58,7 +59,8 @@ std::string cycle_complaint(const std::vector<int>& cycles, const Replayed& show
 nlohmann::json illustrated(const Study& study, const Identity& identity, const Folder& folder,
                            const Replayed& shown) {
   nlohmann::json panels =
-      drawn_by(study.replay ? study.replay : study.illustrate, identity, folder, shown.run);
+      drawn_by(study.presentation.replay ? study.presentation.replay : study.presentation.illustrate,
+               identity, folder, shown.run);
   if (!shown.cycle || !panels.is_array()) return panels;
   const std::vector<int> cycles = detail::cycles_of(panels);
   if (std::find(cycles.begin(), cycles.end(), *shown.cycle) == cycles.end())

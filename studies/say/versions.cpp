@@ -25,7 +25,7 @@ std::string version_text(const Study& study) {
                      kriging::detail::ipopt_version() + "\nSQLite " + sqlite_version();
   const std::string hdf5 = "HDF5 " + engine::record::hdf5_version();
   text += "\n" + hdf5;
-  for (const std::string& library : study.libraries)
+  for (const std::string& library : study.simulator.libraries)
     if (library != hdf5) text += "\n" + library;
   return text;
 }

@@ -180,11 +180,12 @@ int main(int argc, char** argv) {
   if (trouble() == "bounds") std::swap(study.problem.variables[1].lower, study.problem.variables[1].upper);
   if (trouble() == "changed") study.problem.variables[1].upper = 30.0;
   if (trouble() == "shared" || trouble() == "unprepared") study.prepare = prepare;
-  if (trouble() == "drawn" || trouble() == "filmed" || trouble() == "cycles") study.illustrate = illustrate;
-  if (trouble() == "cycles") study.replay = by_cycles;
-  if (trouble() == "parts") study.finish_log = join;
+  if (trouble() == "drawn" || trouble() == "filmed" || trouble() == "cycles")
+    study.presentation.illustrate = illustrate;
+  if (trouble() == "cycles") study.presentation.replay = by_cycles;
+  if (trouble() == "parts") study.logs.finish = join;
   if (trouble() == "logged") {
-    study.responses = responses_of;
+    study.logs.responses = responses_of;
     study.options.push_back({.name = "price", .value = "1", .least = 1, .most = 9, .of_responses = true});
   }
   return studies::run(argc, argv, study);

@@ -26,7 +26,7 @@ class Served {
     study_.name = "sample";
     study_.problem = {.variables = {{"alpha", "1", 0.2, 2.0}},
                       .responses = {{"cost", "EUR", doe::Goal::minimize}}};
-    study_.illustrate = [](const std::filesystem::path&) {
+    study_.presentation.illustrate = [](const std::filesystem::path&) {
       return json::array(
           {{{"type", "table"}, {"title", "t"}, {"caption", "c"}, {"columns", {"a"}}, {"rows", {{1}}}}});
     };

@@ -36,7 +36,7 @@ class LiveServer : public testing::Test {
     test::write_file(folder_.log(1), "raw");
     study_.name = "sample";
     study_.problem = test::two_by_two();
-    study_.illustrate = [](const std::filesystem::path&) {
+    study_.presentation.illustrate = [](const std::filesystem::path&) {
       const json table = {
           {"type", "table"}, {"title", "t"}, {"caption", "c"}, {"columns", {"a"}}, {"rows", {{1}}}};
       return json::array({table, {{"type", "scene"}, {"title", "s"}, {"caption", "c"}}, 7});
@@ -113,7 +113,7 @@ TEST_F(LiveServer, GivesTheFiguresOfARunButNoScene) {
 }
 
 TEST_F(LiveServer, GivesTheFiguresOfTheLastCycle) {
-  study_.replay = [](const std::filesystem::path&) {
+  study_.presentation.replay = [](const std::filesystem::path&) {
     json panels = json::array();
     for (const char* title : {"all", "first", "last"})
       panels.push_back(

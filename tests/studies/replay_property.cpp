@@ -144,14 +144,14 @@ class Replay : public testing::Test {
     run_.log = file_checksum(folder_.log(1));
     study_.name = "sample";
     study_.problem = test::two_by_two();
-    study_.illustrate = [](const std::filesystem::path& log) {
+    study_.presentation.illustrate = [](const std::filesystem::path& log) {
       if (test::contents(log) == "mad") throw std::runtime_error("no such signal");
       return nlohmann::json::array({table_panel});
     };
   }
   /// Of two cycles, of which the report would show the first.
   void show_by_cycles() {
-    study_.replay = [](const std::filesystem::path&) {
+    study_.presentation.replay = [](const std::filesystem::path&) {
       nlohmann::json panels = panels_of(1, 1);
       for (const auto& panel : panels_of(2, 1)) panels.push_back(panel);
       panels.push_back(table_panel);
@@ -225,7 +225,7 @@ TEST_F(Replay, ALogThatDoesNotFitItsRunIsNotShown) {
             "replay: run 1: " + folder_.log(1).string() + " is damaged, or not what the run wrote" + again);
   std::filesystem::remove(folder_.log(1));
   EXPECT_EQ(refusal(), "replay: run 1: its log " + folder_.log(1).string() + " is gone" + again);
-  study_.simulator = "throw, model 2";
+  study_.simulator.name = "throw, model 2";
   EXPECT_EQ(refusal(), "replay: run 1: its log " + folder_.log(1).string() +
                            " is gone; only the program that made this folder, a simulator without a name, "
                            "makes it again");

@@ -139,10 +139,10 @@ TEST_F(Report, FindingsAreHeldAgainstTheFirstDesign) {
   ReportInput in = input(2, 2, 8, 3);
   in.kinds = {{0, "training"}, {6, "adaptive"}, {7, "confirmation"}};
   StudyResults held;
-  const Study study{.findings = [&](const StudyResults& results) {
-    held = results;
-    return std::vector<Finding>();
-  }};
+  const Study study{.presentation = {.findings = [&](const StudyResults& results) {
+                      held = results;
+                      return std::vector<Finding>();
+                    }}};
   hold_findings(in, study, {}, {}, Folder{});
   EXPECT_EQ(held.X, in.training.X().topRows(6));
   EXPECT_EQ(held.Y.rows(), 6);

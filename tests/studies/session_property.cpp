@@ -47,7 +47,7 @@ class SessionTest : public testing::Test {
 
 TEST_F(SessionTest, NumbersComeFromOptionsThenTheStoreThenTheStudy) {
   EXPECT_EQ(plan_study(sample(), folder_, {}).runs().size(), 8u);
-  EXPECT_EQ(plan_study(sample(), folder_, {.runs = 9, .validation = 3}).runs().size(), 12u);
+  EXPECT_EQ(plan_study(sample(), folder_, {.plan = {.runs = 9, .validation = 3}}).runs().size(), 12u);
   EXPECT_EQ(plan_study(sample(), folder_, {}).runs().size(), 12u);
 }
 
@@ -55,8 +55,8 @@ TEST_F(SessionTest, SamplingComesFromOptionsThenTheStoreThenTheStudy) {
   Study study = sample();
   study.defaults.adaptive = 5;
   EXPECT_EQ(plan_study(study, folder_, {}).sampling().points, 5);
-  EXPECT_EQ(plan_study(study, folder_, {.adaptive = 9, .batch = 3}).sampling().points, 9);
-  const Store store = plan_study(study, folder_, {.criteria = "error", .target = 0.1});
+  EXPECT_EQ(plan_study(study, folder_, {.plan = {.adaptive = 9, .batch = 3}}).sampling().points, 9);
+  const Store store = plan_study(study, folder_, {.plan = {.criteria = "error", .target = 0.1}});
   EXPECT_EQ(store.sampling().points, 9);
   EXPECT_EQ(store.sampling().batch, 3);
   EXPECT_EQ(store.sampling().criteria, "error");
@@ -66,13 +66,13 @@ TEST_F(SessionTest, SamplingComesFromOptionsThenTheStoreThenTheStudy) {
 
 TEST_F(SessionTest, AdaptivePointsDoNotShrinkAndATargetNeedsValidation) {
   {
-    Store store = plan_study(sample(), folder_, {.validation = 0, .adaptive = 4});
+    Store store = plan_study(sample(), folder_, {.plan = {.validation = 0, .adaptive = 4}});
     const Eigen::MatrixXd X = Eigen::MatrixXd::Constant(3, 2, 0.5);
     store.add(runs_at(store.identity(), store.runs(), Kind::adaptive, {.X = X}));
   }
-  EXPECT_NE(refused(sample(), {.adaptive = 2}).find("--adaptive 3 or more"), std::string::npos);
-  EXPECT_NE(refused(sample(), {.target = 0.1}).find("--validation 10 or more"), std::string::npos);
-  EXPECT_EQ(plan_study(sample(), folder_, {.adaptive = 3}).sampling().points, 3);
+  EXPECT_NE(refused(sample(), {.plan = {.adaptive = 2}}).find("--adaptive 3 or more"), std::string::npos);
+  EXPECT_NE(refused(sample(), {.plan = {.target = 0.1}}).find("--validation 10 or more"), std::string::npos);
+  EXPECT_EQ(plan_study(sample(), folder_, {.plan = {.adaptive = 3}}).sampling().points, 3);
 }
 
 TEST_F(SessionTest, DoneRunsStayWhenTheStudyGrows) {
@@ -80,7 +80,7 @@ TEST_F(SessionTest, DoneRunsStayWhenTheStudyGrows) {
     Store store = plan_study(sample(), folder_, {});
     for (const auto& run : store.runs()) store.save_done(run.id, run.x * 2.0, 0.1);
   }
-  const Store store = plan_study(sample(), folder_, {.runs = 7});
+  const Store store = plan_study(sample(), folder_, {.plan = {.runs = 7}});
   int done = 0;
   for (const auto& run : store.runs()) {
     if (run.status != Status::done) continue;
@@ -93,13 +93,14 @@ TEST_F(SessionTest, DoneRunsStayWhenTheStudyGrows) {
 
 TEST_F(SessionTest, OtherOptionsAreRefused) {
   plan_study(sample(), folder_, {});
-  const std::string text = refused(sample(), {.seed = 7});
+  const std::string text = refused(sample(), {.plan = {.seed = 7}});
   EXPECT_EQ(text, "studies: " + place_.path().string() +
                       " holds another study: seed 1 there, 7 here; choose another folder with --out, or move "
                       "this one away");
-  EXPECT_NE(refused(sample(), {.replicates = 2}).find("replicates 1 there, 2 here"), std::string::npos);
-  EXPECT_NE(refused(sample(), {.runs = 3}).find("--runs 6 or more"), std::string::npos);
-  EXPECT_EQ(plan_study(sample(), folder_, {.seed = 1}).runs().size(), 8u);
+  EXPECT_NE(refused(sample(), {.plan = {.replicates = 2}}).find("replicates 1 there, 2 here"),
+            std::string::npos);
+  EXPECT_NE(refused(sample(), {.plan = {.runs = 3}}).find("--runs 6 or more"), std::string::npos);
+  EXPECT_EQ(plan_study(sample(), folder_, {.plan = {.seed = 1}}).runs().size(), 8u);
 }
 
 Study with_options_of_its_own() {
@@ -285,7 +286,7 @@ TEST_F(SessionTest, AFolderOfBeforeIsReadAndTakesNoRuns) {
             std::string::npos)
       << text;
   Study with_logs = now;
-  with_logs.responses = [](const std::filesystem::path&, const OptionValues&) {
+  with_logs.logs.responses = [](const std::filesystem::path&, const OptionValues&) {
     return doe::Failure{"none"};
   };
   EXPECT_NE(complaint([&] { open_store(with_logs, folder_); }).find("rerun-responses --from"),

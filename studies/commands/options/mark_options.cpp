@@ -69,7 +69,7 @@ std::string names_of_marks(const std::vector<Mark>& marks) {
 
 [[noreturn]] void refuse_to_take_away(const Study& study, const std::vector<Mark>& stored,
                                       const Settings& settings, const std::string& name) {
-  std::vector<Mark> declared = study.marks;
+  std::vector<Mark> declared = study.presentation.marks;
   if (mark_named(declared, name) != declared.end())
     throw UsageError("--mark " + name + "=: the study itself declares this mark; give --mark " + name + "=" +
                      names_of(study.problem) + " to put another point in its place");
@@ -130,7 +130,8 @@ void keep_marks(Store& store, const Study& study, const Settings& settings, int 
   if (settings.marks.empty()) return;
   const std::vector<Mark> stored = store.marks(), now = changed_marks(study, stored, settings);
   if (to_text(now) != to_text(stored)) store.set_marks(now);
-  say_what_changes(with_marks(study.marks, stored), with_marks(study.marks, now), messages);
+  say_what_changes(with_marks(study.presentation.marks, stored), with_marks(study.presentation.marks, now),
+                   messages);
 }
 
 }  // namespace drawpoint::studies

@@ -11,10 +11,10 @@ namespace drawpoint::studies {
 
 Store store_of_other_folder(const std::string& command, const Study& study, const Settings& settings) {
   std::error_code unknown;
-  if (std::filesystem::equivalent(settings.out, settings.with, unknown))
+  if (std::filesystem::equivalent(settings.out, settings.compare.with, unknown))
     throw UsageError(command + ": --out and --with are both " + settings.out.string() +
                      "; name another folder of the study");
-  const Folder folder{settings.with};
+  const Folder folder{settings.compare.with};
   const std::string name = folder.path.string();
   if (!std::filesystem::exists(folder.store()))
     throw std::runtime_error(command + ": there is no study in " + name +

@@ -58,7 +58,7 @@ Standing ended(const Study& study, const Contents& contents, const Counts& count
     return end(" Next: those that are left, unless the command says that no more are wanted.",
                making_command(study));
   if (!has_objective(contents.identity.problem)) return end(" Next: the report.", "report");
-  if (contents.identity.simulator != study.simulator)
+  if (contents.identity.simulator != study.simulator.name)
     return end(
         " No run can be added: another simulator made them, or one with fewer responses. Next: the report.",
         "report");

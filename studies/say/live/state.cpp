@@ -113,7 +113,7 @@ ordered_json last_json(const Contents& contents) {
 
 /// The last run that ended and wrote a log.
 ordered_json logged_run(const Study& study, const Contents& contents) {
-  if (!study.illustrate) return {};
+  if (!study.presentation.illustrate) return {};
   for (auto i = contents.ended.rbegin(); i != contents.ended.rend(); ++i)
     if (!contents.runs[*i].log.empty()) return contents.runs[*i].id;
   return {};
