@@ -124,7 +124,8 @@ inline std::vector<FitOptions> usual_kinds(FitOptions options = {}) {
 /// A fit on this scale with noise from this source, judged by what such a fit expects (noise_model.hpp).
 /// options: with Noise::nugget; freedom: the degrees of freedom of each standard error that runs tell.
 inline WayToFit way_with_noise(std::string name, Scale scale, const ResponseRange& range,
-                               const FitOptions& options, NoiseSource source, double freedom = well_told) {
+                               const FitOptions& options, NoiseSource source,
+                               double freedom = exactly_known) {
   return {std::move(name),
           [=](const Eigen::MatrixXd& X, const Eigen::VectorXd& y, const Eigen::VectorXd& noise_variance) {
             return fit_with_noise(X, y, scale, range, options, source, noise_variance, freedom);

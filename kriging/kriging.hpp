@@ -22,6 +22,7 @@
 #include <drawpoint/kriging/fit_radial.hpp>
 #include <drawpoint/kriging/mean_error.hpp>
 #include <drawpoint/kriging/model.hpp>
+#include <drawpoint/kriging/moderated_noise.hpp>
 #include <drawpoint/kriging/nearest_model.hpp>
 #include <drawpoint/kriging/noise_model.hpp>
 #include <drawpoint/kriging/nonstationarity.hpp>
@@ -56,6 +57,7 @@
 ///   fit_fidelities.hpp             co-Kriging: few true runs and more of a cheaper setting, in one model
 ///   fidelity_model.hpp             that model
 ///   replicates.hpp                 repeated runs as one run with a known noise
+///   moderated_noise.hpp            variances of few samples, each drawn towards those of all
 ///   noise_model.hpp                the noise that a run has at a place, from what runs tell of theirs
 ///   polynomial.hpp                 polynomial regression
 ///   radial.hpp                     radial basis functions

@@ -100,13 +100,13 @@ using ExpectedNoise =
     std::function<Eigen::VectorXd(const Eigen::MatrixXd& others, const Eigen::VectorXd& told_by_others,
                                   const Eigen::MatrixXd& X, const Eigen::VectorXd& told)>;
 
-/// Of how many degrees of freedom the standard error of every run is, where that is well known by itself.
-inline constexpr double well_told = std::numeric_limits<double>::infinity();
+/// The degrees of freedom of standard errors that are known exactly.
+inline constexpr double exactly_known = std::numeric_limits<double>::infinity();
 
 /// What a fit with noise from there expects of runs that it has not seen; empty where that is one size, which
 /// its model knows. options: as fit_noise; freedom: as fit_with_noise.
 inline ExpectedNoise expected_noise(NoiseSource source, const FitOptions& options = {},
-                                    double freedom = well_told) {
+                                    double freedom = exactly_known) {
   using Runs = const Eigen::MatrixXd&;
   using Entries = const Eigen::VectorXd&;
   if (source == NoiseSource::told)
@@ -114,7 +114,7 @@ inline ExpectedNoise expected_noise(NoiseSource source, const FitOptions& option
       if (std::isinf(freedom)) return told;
       const SharedNoise shared =
           shared_noise(told_by_others, Eigen::VectorXd::Constant(told_by_others.size(), freedom));
-      return told.unaryExpr([&](double v) { return shared.expected(v, freedom); });
+      return told.unaryExpr([&](double v) { return shared.moderated(v, freedom); });
     };
   if (source != NoiseSource::modelled) return {};
   return [options](Runs others, Entries told_by_others, Runs X, Entries) {
@@ -128,7 +128,7 @@ inline ExpectedNoise expected_noise(NoiseSource source, const FitOptions& option
 inline TransformedModel fit_with_noise(const Eigen::MatrixXd& X, const Eigen::VectorXd& y, Scale scale,
                                        const ResponseRange& range, const FitOptions& options,
                                        NoiseSource source, const Eigen::VectorXd& noise_variance,
-                                       double freedom = well_told) {
+                                       double freedom = exactly_known) {
   if (source == NoiseSource::estimated) return fit_transformed(X, y, scale, range, options);
   FitOptions known = options;
   known.noise = source == NoiseSource::pooled ? Noise::pooled : Noise::known;

@@ -25,6 +25,7 @@
 #include <algorithm>
 #include <cmath>
 #include <drawpoint/kriging/cross_validation.hpp>
+#include <drawpoint/kriging/noise_model.hpp>
 #include <drawpoint/kriging/score.hpp>
 #include <drawpoint/kriging/transformed_model.hpp>
 #include <numeric>
@@ -44,6 +45,7 @@ struct OutlierOptions {
   /// noise_variance). A suspect is judged by what it tells where the noise of the model differs from run to
   /// run, else by the model's one size.
   Eigen::VectorXd noise_variance = {};
+  ExpectedNoise noise = {};  ///< what the fitter makes of that for runs that it has not seen; empty: as it is
 };
 
 struct Outlier {
@@ -98,6 +100,15 @@ TransformedModel fitted_to(const std::vector<Eigen::Index>& rows, const Eigen::M
     return fitter(P, v);
 }
 
+/// The noise of the suspects, as a fit to `rows` expects it: by default what they report.
+inline Eigen::VectorXd noise_of_suspects(const OutlierOptions& options, const Eigen::MatrixXd& X,
+                                         const std::vector<Eigen::Index>& rows,
+                                         const std::vector<Eigen::Index>& suspects) {
+  const Eigen::VectorXd own = entries_of(options.noise_variance, suspects);
+  if (!options.noise) return own;
+  return options.noise(rows_of(X, rows), entries_of(options.noise_variance, rows), rows_of(X, suspects), own);
+}
+
 inline std::vector<Eigen::Index> without(std::vector<Eigen::Index> rows, Eigen::Index place) {
   rows.erase(rows.begin() + place);
   return rows;
@@ -149,7 +160,8 @@ std::vector<Outlier> find_outliers(const TransformedModel& model, const Eigen::M
   const Eigen::VectorXd observed = detail::entries_of(y, suspects), &noise = options.noise_variance;
   const bool by_own = noise.size() > 0 && model.model().state().noise.size() > 0;
   const Validation v =
-      by_own ? validate(best, P, observed, detail::entries_of(noise, suspects)) : validate(best, P, observed);
+      by_own ? validate(best, P, observed, detail::noise_of_suspects(options, X, rows, suspects))
+             : validate(best, P, observed);
   for (std::size_t k = 0; k < suspects.size(); ++k) {
     const auto i = static_cast<Eigen::Index>(k);
     if (detail::too_far(detail::deviations_of(detail::predicted_run(v, i), observed[i]), X.rows(),

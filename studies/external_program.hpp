@@ -32,7 +32,7 @@
 
 namespace drawpoint::studies {
 
-/// Begins the part of a Study::simulator that is of files which nobody named, but which lie beside the program: a
+/// Begins the part of a Simulator::name that is of files which nobody named, but which lie beside the program: a
 /// folder whose runs were stored without such a part goes on with it.
 inline constexpr const char* files_beside_it = "; beside it ";
 

@@ -17,7 +17,7 @@ struct StudyOption {
   std::string value = {};  ///< default
   std::vector<std::string> choices = {};  ///< values there are; empty: whole numbers from `least` to `most`
   int least = 0, most = 0;
-  /// Decides what Study::responses makes of a log, and nothing in the simulation: `rerun-responses` may
+  /// Decides what Logs::responses makes of a log, and nothing in the simulation: `rerun-responses` may
   /// change it.
   bool of_responses = false;
   /// What runs were made with before the option came to the study: folders of before go on, and count as made

@@ -29,7 +29,7 @@
 ///   lines  series: [{name, x: [], y: []}]; x_label, y_label
 ///   table  columns: [], rows: [[]..]
 /// and note?: how to read it, which a page says once where several figures have the same; in_scene?: true where
-/// a scene of the same run shows it too, beside which it is left out; cycle?: see Study::replay.
+/// a scene of the same run shows it too, beside which it is left out; cycle?: see Presentation::replay.
 
 #include <drawpoint/doe/outcome.hpp>
 #include <drawpoint/doe/problem.hpp>

@@ -28,7 +28,7 @@ Tables read(const std::string& file) {
 /// The same runs, of which nobody knows the standard errors.
 Tables untold(Tables tables) {
   for (doe::Evaluations* runs : {&tables.training, &tables.validation})
-    for (doe::Response& response : runs->problem.responses) response.standard_error.clear();
+    for (doe::Response& response : runs->problem.responses) response.forget_standard_error();
   return tables;
 }
 

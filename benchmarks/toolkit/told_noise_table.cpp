@@ -125,7 +125,7 @@ Runs runs_of(const Function& function, const Noise& noise, int n, int samples, d
 
 kriging::WayToFit way(const Source& source, int samples, const kriging::FitOptions& options = {}) {
   return kriging::way_with_noise(source.name, kriging::Scale::linear, {}, options, source.source,
-                                 source.moderated ? samples - 1.0 : kriging::well_told);
+                                 source.moderated ? samples - 1.0 : kriging::exactly_known);
 }
 
 std::vector<kriging::WayToFit> ways(int samples) {

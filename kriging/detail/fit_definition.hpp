@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <drawpoint/kriging/detail/blind.hpp>
 #include <drawpoint/kriging/detail/compiled.hpp>
+#include <drawpoint/kriging/detail/exact_or_noisy.hpp>
 #include <drawpoint/kriging/detail/exact_repeats.hpp>
 #include <drawpoint/kriging/detail/fit_prepared.hpp>
 #include <drawpoint/kriging/detail/sites.hpp>
@@ -37,6 +38,20 @@ inline Model fit_to(const Eigen::MatrixXd& X, const TrainingData& data, const Fi
   return leave_one_out_error(blind.state()) < leave_one_out_error(model.state()) ? blind : model;
 }
 
+/// The same, and where the noise is not known, without any where the runs are clearly likelier so.
+inline Model fit_either(const Eigen::MatrixXd& X, const TrainingData& data, const FitOptions& options) {
+  const Model noisy = fit_to(X, data, options);
+  if (!may_be_exact(noisy, data, options)) return noisy;
+  FitOptions exact = with_exact_runs(options);
+  if (exact.starts > few_starts) {
+    FitOptions quick = exact;
+    quick.starts = few_starts;
+    if (is_far_below(fit_to(X, data, quick), noisy)) return noisy;
+  }
+  const Model model = fit_to(X, data, exact);
+  return is_exact(model, noisy, data, options) ? said_exact(model, noisy) : noisy;
+}
+
 /// Fits the first run of each site, as exact runs; the others join that model.
 inline Model fit_exact_repeats(const Eigen::MatrixXd& X, const Eigen::VectorXd& y,
                                const std::vector<std::vector<Eigen::Index>>& sites, const FitOptions& given) {
@@ -61,6 +76,8 @@ DRAWPOINT_KRIGING_INLINE Model fit(const Eigen::MatrixXd& X, const Eigen::Vector
         return *trend;  // repeats count as runs for that
       return detail::fit_exact_repeats(X, y, sites, given);
     }
+    if (given.noise == Noise::nugget && static_cast<Eigen::Index>(sites.size()) == X.rows())
+      return detail::fit_either(X, data, options);
   }
   return detail::fit_to(X, data, options);
 }

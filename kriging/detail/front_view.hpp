@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-/// Of runs the front, and a reference point beyond it, for improvements of hypervolume. All objectives minimised.
+/// The front of runs, and a reference point beyond it, for improvements of hypervolume. All objectives are minimised.
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <cmath>
 #include <drawpoint/kriging/detail/dense.hpp>
 #include <vector>
 
@@ -32,13 +33,16 @@ inline std::vector<Eigen::Index> front_rows(const Eigen::MatrixXd& Y, const std:
 }
 
 /// A tenth of the extent of the front, rows of Y, beyond it: ends of the front can still be improved on, and places
-/// that are far from it are worth nothing. In an objective where the front has none, all runs give the extent.
+/// that are far from it are worth nothing. Two or three runs may lie at nearly one value of an objective: their front
+/// counts as a tenth of the extent of all runs at least, and one without extent as all of it.
 inline Eigen::VectorXd reference_beyond(const Eigen::MatrixXd& Y, const std::vector<Eigen::Index>& front) {
   Eigen::VectorXd reference(Y.cols());
   for (Eigen::Index k = 0; k < Y.cols(); ++k) {
     const Eigen::VectorXd all = Y.col(k), best = entries_of(all, front);
     const double low = smallest_entry(best), high = largest_entry(best);
-    const double extent = high > low ? high - low : std::max(largest_entry(all) - low, 1e-9);
+    const double size = std::max(std::abs(smallest_entry(all)), std::abs(largest_entry(all)));
+    const double of_all = largest_entry(all) - low, least = 1e-9 * (size > 0 ? size : 1.0);
+    const double extent = std::max(high > low ? std::max(high - low, 0.1 * of_all) : of_all, least);
     reference[k] = (high > low ? high : low + extent) + 0.1 * extent;
   }
   return reference;

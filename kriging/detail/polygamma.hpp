@@ -4,8 +4,8 @@
 
 /// The first two derivatives of ln Γ, and the inverse of the second.
 ///
-/// By the recurrence up to x >= 10, then the asymptotic series (Abramowitz, Stegun 1964, 6.3.18 and 6.4.12). The
-/// first term left out is below 3e-13 for ψ and 3e-13 for ψ'.
+/// The recurrence leads to x >= 10, then the asymptotic series hold (Abramowitz, Stegun 1964, 6.3.18 and 6.4.12). The
+/// first terms left out are at most 5/660 1e-10 = 7.6e-13.
 
 #include <cmath>
 
@@ -30,11 +30,10 @@ inline double trigamma(double x) {
 /// The x at which ψ'(x) = y, y > 0, to 1e-12 of it: ψ' falls from 1/x² to 1/x, so that x lies between 1/(y + 1) and
 /// 1/y + 1/√y + 1.
 inline double inverse_trigamma(double y) {
-  double low = std::log(1 / (y + 1) / 2), high = std::log(1 / y + 1 / std::sqrt(y) + 1);
+  double low = std::log(1 / (y + 1)), high = std::log(1 / y + 1 / std::sqrt(y) + 1);
   while (high - low > 1e-12) {
     const double middle = 0.5 * (low + high);
     (trigamma(std::exp(middle)) > y ? low : high) = middle;
-    if (middle == low && middle == high) break;
   }
   return std::exp(0.5 * (low + high));
 }

@@ -21,6 +21,7 @@
 #include <drawpoint/kriging/append.hpp>
 #include <drawpoint/kriging/detail/sites.hpp>
 #include <drawpoint/kriging/fit.hpp>
+#include <drawpoint/kriging/moderated_noise.hpp>
 #include <drawpoint/kriging/success_model.hpp>
 #include <optional>
 #include <utility>
@@ -43,7 +44,12 @@ inline bool runs_are_exact(const doe::Evaluations& runs) {
   return repeated || runs.problem.deterministic;
 }
 
-/// Options for response `name` of runs in the box of their problem.
+inline const doe::Response& response_of(const doe::Problem& problem, std::string_view name) {
+  return problem.responses[static_cast<std::size_t>(doe::response_index(problem, name))];
+}
+
+/// Options for response `name` of runs in the box of their problem. A run is weighed by its own standard error where the
+/// problem has its degrees of freedom, moderated by those of all.
 inline FitOptions search_fit_options(const doe::Evaluations& runs, std::string_view name, bool exact) {
   FitOptions options;
   options.lower = doe::lower_bounds(runs.problem);
@@ -54,8 +60,9 @@ inline FitOptions search_fit_options(const doe::Evaluations& runs, std::string_v
     options.noise = Noise::none;
     if (told.size() == 0 && runs.X().rows() < 4 * options.lower.size()) options.theta_lower = 0.1;
   } else if (told.size() > 0 && largest_entry(told) > 0) {
-    options.noise = Noise::known;
-    options.noise_variance = told;
+    const double freedom = response_of(runs.problem, name).standard_error_freedom;
+    options.noise = freedom > 0 ? Noise::known : Noise::pooled;
+    options.noise_variance = freedom > 0 ? moderated_noise(told, freedom) : told;
   }
   return options;
 }

@@ -67,8 +67,9 @@ class Kriging:
     lower, upper : (d,), the box that is scaled to [-1, 1], on which theta_ lives. None: the range of the runs.
     levels : d counts, 0 for a number, L for a category of the values 0 .. L - 1. None: all are numbers.
     theta_bounds, nugget_bounds : (least, largest), > 0; those of theta numbers or (d,) each. None: the library's.
-    neighbourhood : runs that a prediction rests on, 8 or more, such as 400: for thousands of runs, whose exact fit costs
-        n cubed. None: all runs. Of such a model there is no leave_one_out, covariance and gradient.
+    neighbourhood : runs that a prediction rests on, 8 to 4000, such as 400: for thousands of runs, whose exact fit costs
+        n cubed. None: all runs. Such a model has no leave_one_out, covariance and gradient, and takes neither the trend
+        "blind" nor the structure "additive".
     starts : local searches, 1 or more.
     seed : of the starting points; equal input gives equal bits.
     threads : of the matrix work of 500 runs or more; 0: all cores. Results do not depend on it.
@@ -119,7 +120,8 @@ class Kriging:
         """Fits the model to runs and returns self. Ctrl-C takes effect when the fit has ended.
 
         X: (n, d), natural units; y: (n,); noise: variance of the noise of each run, (n,) or one number, unit of y
-        squared, None: estimated, the same everywhere. Raises ValueError for other shapes, numbers that are not finite
+        squared, None: estimated, the same everywhere; where each is of a few samples take noise_kind="pooled", for some
+        are small by chance. Raises ValueError for other shapes, numbers that are not finite
         and parameters out of range. Warns FitWarning where status_ is not "converged".
         """
         runs, response = _runs(X, y)
@@ -206,12 +208,11 @@ class Kriging:
         The file holds the model, not the parameters of the fit, but for correlation.
         """
         try:
-            return cls._of(_core.Model.load(os.fspath(path)))
-        except RuntimeError as of_all:
-            try:
-                return cls._of(_core.NearestModel.load(os.fspath(path)))
-            except RuntimeError:
-                raise of_all from None
+            with open(path, encoding="utf-8", errors="replace") as file:
+                kind = _kind(file.read())
+        except OSError:
+            kind = _core.Model  # which says what the matter is
+        return cls._of(kind.load(os.fspath(path)))
 
     def to_text(self) -> str:
         """The text that save() writes."""
@@ -220,13 +221,7 @@ class Kriging:
     @classmethod
     def from_text(cls, text: str) -> Kriging:
         """As load(), from a text."""
-        try:
-            return cls._of(_core.Model.from_text(text))
-        except RuntimeError as of_all:
-            try:
-                return cls._of(_core.NearestModel.from_text(text))
-            except RuntimeError:
-                raise of_all from None
+        return cls._of(_kind(text).from_text(text))
 
     def get_params(self, deep: bool = True) -> dict[str, Any]:
         """The parameters, by name."""
@@ -361,6 +356,10 @@ def choose_kriging(
     core, best, table = _core.choose_fit(runs, response, options, np.empty(0) if variance is None else variance)
     models[best]._keep(core)
     return Choice(models[best], best, tuple(Standing(*row) for row in table))
+
+
+def _kind(text: str) -> Union[type[_core.Model], type[_core.NearestModel]]:
+    return _core.NearestModel if '"drawpoint nearest Kriging model"' in text else _core.Model
 
 
 def _parameters() -> list[str]:

@@ -121,6 +121,10 @@ def test_a_neighbourhood_fits_many_runs_and_one_of_all_is_exact(tmp_path):
     nearest.save(tmp_path / "nearest.json")
     for twin in (Kriging.load(tmp_path / "nearest.json"), pickle.loads(pickle.dumps(nearest))):
         assert twin.neighbourhood == 200 and (twin.predict(NEW) == nearest.predict(NEW)).all()
+    (tmp_path / "cut.json").write_text(nearest.to_text()[:-9])
+    with pytest.raises(RuntimeError, match="cut.json") as cut:
+        Kriging.load(tmp_path / "cut.json")
+    assert "drawpoint Kriging model" not in str(cut.value)
     assert nearest.k_fold(many[:300], force(many[:300])).nrmse < 1e-3
     for call in (nearest.leave_one_out, lambda: nearest.covariance(NEW), lambda: nearest.gradient(NEW[0])):
         with pytest.raises(ValueError, match="not there with neighbourhood=200; "):

@@ -16,7 +16,8 @@ namespace drawpoint::studies {
 int replay_command(const Study& study, const Settings& settings) {
   const ReplaySettings& wanted = settings.replay;
   if (!study.presentation.illustrate)
-    throw UsageError("replay: this study does not say what to draw of a run's log (Study::illustrate)");
+    throw UsageError(
+        "replay: this study does not say what to draw of a run's log (Presentation::illustrate)");
   const bool frames = wants_frames(wanted.frames);
   const Folder folder{settings.out};
   const Store store = open_store(study, folder);

@@ -58,7 +58,7 @@ int rerun_responses_command(const Study& study, const Settings& settings) {
   if (!study.logs.responses)
     throw UsageError(
         "rerun-responses: this study does not say how its responses follow from a run's log "
-        "(Study::responses), so "
+        "(Logs::responses), so "
         "only new runs give them");
   const Folder from{settings.rerun.from}, to{without_slash(settings.out)};
   check_folders(from, to);

@@ -18,7 +18,7 @@
 /// the command that names a file beside the study file means that file, wherever the study is started.
 /// Unknown and repeated keys are refused, since they are mostly mistakes.
 ///
-/// The command and these files are what the study holds its runs to (Study::simulator), by their checksum, with
+/// The command and these files are what the study holds its runs to (Simulator::name), by their checksum, with
 /// `version` and those that `files` names; without it, those that lie beside a program and end as it does
 /// (simulator_files.h).
 /// The processes of its runs are given the file's name with a checksum of all of it, "@CHECKSUM:FILE", and

@@ -39,7 +39,7 @@ engine::loading::ProductionOptions production_options(const OptionValues& option
 /// How rock spill is taken from a log, and what must be read of the log for it.
 engine::loading::SpillOptions spill_options(const OptionValues& options);
 engine::loading::LogContent content_for(const OptionValues& options);
-/// Study::cycles: the loads and times of a run, of which production is made with the haul of the options.
+/// Logs::cycles: the loads and times of a run, of which production is made with the haul of the options.
 CycleWork loading_cycles(const std::filesystem::path& log, const OptionValues& options);
 
 /// Place of the cycle of median production in LoadingLog::cycles, of an even number the lesser of the two in the

@@ -27,7 +27,7 @@ constexpr double least_agreement = 0.5;
 /// The three responses; standard errors may come after them.
 doe::Problem without_errors(doe::Problem problem) {
   problem.responses.resize(3);
-  for (doe::Response& response : problem.responses) response.standard_error.clear();
+  for (doe::Response& response : problem.responses) response.forget_standard_error();
   return problem;
 }
 

@@ -24,7 +24,7 @@ std::vector<const Run*> runs_with_log(const Study& study, const Identity& identi
                                       const std::vector<Run>& runs, const Folder& folder,
                                       std::vector<std::string>& warnings);
 
-/// Study::headlines of these runs; where it throws, none and a warning.
+/// Presentation::headlines of these runs; where it throws, none and a warning.
 std::vector<Headline> headlines_of(const Study& study, const std::vector<const Run*>& runs,
                                    const OptionValues& options, const Folder& folder,
                                    std::vector<std::string>& warnings);

@@ -21,7 +21,7 @@ void require_same_simulation(const Study& study, const Identity& from, const Opt
 /// stored.
 OptionValues options_anew(const Study& study, const Identity& from, const OptionValues& given);
 
-/// All runs of `from`, ids and logs kept. A run that has ended has the outcome that Study::responses gives;
+/// All runs of `from`, ids and logs kept. A run that has ended has the outcome that Logs::responses gives;
 /// what it throws is a failure of that run. Runs without a log stay failed, or, imported ones, become so.
 /// Planned runs stay planned. Confirmation runs become adaptive ones: what was predicted of them was of other
 /// responses. Throws std::runtime_error that names the runs whose logs are gone or damaged.

@@ -108,7 +108,7 @@ struct RecommendSettings {
   std::string against = {};  ///< a point as NAME=VALUE,...; empty: the middle of the box
 };
 
-/// Options of `compare`.
+/// Options of `compare`, and of `validate` with another folder.
 struct CompareSettings {
   std::filesystem::path with = {};  ///< the folder that `out` is compared with
 };

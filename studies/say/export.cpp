@@ -224,11 +224,13 @@ ExportTable responses_table(const doe::Problem& problem) {
                   {"lower", "", ColumnType::number, "no value lies below, in the response's unit"},
                   {"upper", "", ColumnType::number, "no value lies above, in the response's unit"},
                   {"description", "", ColumnType::text, "what it is"},
-                  {"standard_error", "", ColumnType::text, "name of the response that tells its noise"}},
+                  {"standard_error", "", ColumnType::text, "name of the response that tells its noise"},
+                  {"standard_error_freedom", "", ColumnType::number,
+                   "its degrees of freedom, 0 where unknown"}},
       .rows = {}};
   for (const doe::Response& r : problem.responses)
-    table.rows.push_back(
-        {r.name, r.unit, to_string(r.goal), r.limit, r.lower, r.upper, r.description, r.standard_error});
+    table.rows.push_back({r.name, r.unit, to_string(r.goal), r.limit, r.lower, r.upper, r.description,
+                          r.standard_error, r.standard_error_freedom});
   return table;
 }
 

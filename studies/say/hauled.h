@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// What other hauls would change in a study whose runs tell their cycles (Study::cycles).
+/// What other hauls would change in a study whose runs tell their cycles (Logs::cycles).
 
 #include <drawpoint/studies/run/store/folder.h>
 #include <drawpoint/studies/run/store/store.h>

@@ -23,7 +23,7 @@ struct Replayed {
 
 /// Writes the page to `file`. `command` is the command line that it shows. Throws std::runtime_error where
 /// the run has no log, the log is not what the run wrote, or nothing can be drawn of it; UsageError where it
-/// has no such cycle. Requires Study::illustrate.
+/// has no such cycle. Requires Presentation::illustrate.
 void replay(const Study& study, const Store& store, const Folder& folder, const Replayed& shown,
             const std::filesystem::path& file, const std::string& command);
 

@@ -54,7 +54,7 @@ double mean_square_of_logarithm(const VectorXd& a, const VectorXd& b) {
 
 }  // namespace
 
-// Abramowitz, Stegun 1964, 6.3.2, 6.3.3, 6.4.2, 6.4.4; the series is good to 3e-13.
+// Abramowitz, Stegun 1964, 6.3.2, 6.3.3, 6.4.2, 6.4.4; the series are good to 8e-13.
 TEST(Polygamma, MeetsExactValues) {
   const double euler = std::numbers::egamma, pi = std::numbers::pi;
   EXPECT_NEAR(detail::digamma(1), -euler, 1e-12);
@@ -64,19 +64,19 @@ TEST(Polygamma, MeetsExactValues) {
   EXPECT_NEAR(detail::trigamma(0.5), pi * pi / 2, 1e-12);
   EXPECT_NEAR(detail::trigamma(1e6), 1e-6 + 0.5e-12, 1e-18);
   for (const double x : {1e-4, 0.03, 0.5, 1.0, 7.0, 300.0, 1e8})
-    EXPECT_NEAR(detail::inverse_trigamma(detail::trigamma(x)) / x, 1, 1e-7) << x;
+    EXPECT_NEAR(detail::inverse_trigamma(detail::trigamma(x)) / x, 1, 1e-11) << x;
 }
 
-// 20 000 variances tell what they were drawn from. ln v has the variance ψ'(d/2) + ψ'(d₀/2) and a fourth moment below
-// nine times its square here, so that the estimate of that sum is off by √(8/20000) = 2 % of it, four times as much
-// never; d₀ = 4 has ψ' = 0.645 of at most 0.645 + 4.93: within 0.45 of itself for one degree, 0.12 for five and more,
-// and near 4 so is d₀. s₀² is the mean's: √(5.6/20000) = 1.7 %, and what d₀ is off by.
+// 20 000 variances tell what they were drawn from. ln v has the variance ψ'(d/2) + ψ'(d₀/2) = 5.58, 1.14 and 0.75 for
+// one, five and twenty degrees, and an excess kurtosis of at most 4, so that its estimate is off by √(6/20000) = 1.7 % of
+// it. One standard error is taken off, and four more are allowed: 0.47, 0.10 and 0.06 of ψ'(d₀/2) = 0.645, which d₀ = 4
+// follows. s₀² has the error of the mean, √(5.6/20000) = 1.7 %, and what d₀ is off by.
 TEST(SharedNoise, IsWhatVariancesWereDrawnFrom) {
   for (const int freedom : {1, 5, 20}) {
     const Told t = variances(20000, 4, freedom, 3);
     const SharedNoise shared = shared_noise(t.told, all(t.told, freedom));
-    EXPECT_NEAR(shared.freedom / 4, 1, freedom == 1 ? 0.45 : 0.12) << freedom;
-    EXPECT_NEAR(shared.variance / 4, 1, freedom == 1 ? 0.3 : 0.1) << freedom;
+    EXPECT_NEAR(shared.freedom / 4, 1, freedom == 1 ? 0.9 : 0.2) << freedom;
+    EXPECT_NEAR(shared.variance / 4, 1, freedom == 1 ? 0.4 : 0.1) << freedom;
   }
 }
 
@@ -101,12 +101,11 @@ TEST(ModeratedNoise, IsNearerToTheTruth) {
     }
 }
 
-// Whatever is told: in other units the same; in the order of what is told; between its extremes and those of s₀²; of
-// infinitely many samples as it is told; of no noise none.
+// In other units they are the same; they keep the order and lie between themselves and s₀²; of infinitely many samples
+// they are as they were, and without noise 0.
 TEST(ModeratedNoise, KeepsUnitsAndOrder) {
   for (doe::Seed seed = 1; seed <= 20; ++seed) {
-    Told t = variances(30, 4, 2, seed);
-    if (seed % 3 == 0) t.told[4] = 0;
+    const Told t = variances(30, 4, 2, seed);
     const VectorXd moderated = moderated_noise(t.told, 2);
     const SharedNoise shared = shared_noise(t.told, all(t.told, 2));
     for (const double unit : {1e-16, 1e16})
@@ -122,6 +121,30 @@ TEST(ModeratedNoise, KeepsUnitsAndOrder) {
   }
   EXPECT_EQ(moderated_noise(VectorXd::Zero(3), 2), VectorXd::Zero(3));
   EXPECT_EQ(moderated_noise(VectorXd::Constant(1, 5.0), 1), VectorXd::Constant(1, 5.0));
+}
+
+// Where chance is all that the variances differ by, the quietest of few runs is not left quiet: the seventh part of the
+// true variance at least in 19 of 20 sets of two samples each, where by itself it is below a hundredth in every other one.
+TEST(ModeratedNoise, OfFewRunsErrsTowardsOneVariance) {
+  for (const Eigen::Index n : {10, 20, 40}) {
+    int quiet = 0, raw = 0;
+    for (doe::Seed seed = 1; seed <= 200; ++seed) {
+      const Told t = variances(n, 0, 1, seed);
+      quiet += moderated_noise(t.told, 1).minCoeff() < 4.0 / 7;
+      raw += t.told.minCoeff() < 0.04;
+    }
+    EXPECT_LE(quiet, 20) << n << ": 10 and three standard deviations, √10 each";
+    EXPECT_GT(raw, 80) << n;
+  }
+}
+
+// A variance of 0 beside others is no variance of a normal sample: of counts, two of five are often equal. All are
+// taken together then.
+TEST(ModeratedNoise, OfEqualSamplesIsThatOfAll) {
+  const VectorXd own = (VectorXd(5) << 0.5, 0, 2, 8, 0).finished();
+  EXPECT_LT((moderated_noise(own, 1).array() - 2.1).abs().maxCoeff(), 1e-14);
+  const VectorXd freedom = (VectorXd(3) << 1, 2, 3).finished(), three = (VectorXd(3) << 6, 0, 2).finished();
+  EXPECT_LT((moderated_noise(three, freedom).array() - 2.0).abs().maxCoeff(), 1e-14);
 }
 
 TEST(ModeratedNoise, RefusesWhatCannotBe) {
@@ -174,7 +197,7 @@ TEST(ModeratedNoise, NoRunIsTakenForExactByChance) {
     const auto fitted = [&](double freedom) {
       return fit_with_noise(X, y, Scale::linear, {}, {}, NoiseSource::told, told, freedom);
     };
-    raw += held(fitted(well_told), at) / 30;
+    raw += held(fitted(exactly_known), at) / 30;
     moderated += held(fitted(1), at) / 30;
     const Replicates own = replicates(twice, both, ReplicateNoise::own);
     EXPECT_LT((own.noise_variance - moderated_noise(told, 1)).cwiseAbs().maxCoeff(), 1e-12);

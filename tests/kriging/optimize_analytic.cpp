@@ -251,3 +251,21 @@ TEST(Optimize, RefusesWhatItCannotServe) {
 }
 
 }  // namespace
+
+// A run that reports a small standard error is weighed by it where the problem has its degrees of freedom, and then
+// moderated; else all runs have one size of noise. Errors of 0 beside others are no proof of exact runs.
+TEST(Optimize, WeighsRunsByWhatTheirStandardErrorsAreWorth) {
+  doe::Evaluations runs{unit_problem(1), {}};
+  runs.problem.responses[0].standard_error = "error";
+  runs.problem.responses.push_back({.name = "error", .unit = "1", .lower = 0});
+  const VectorXd error = (VectorXd(6) << 1, 0.01, 3, 2, 0.1, 0.5).finished();
+  for (int i = 0; i < 6; ++i)
+    runs.rows.push_back(
+        {i + 1, 0, 1, VectorXd::Constant(1, 0.1 + 0.15 * i), VectorXd(Eigen::Vector2d(i, error[i])), 0.0});
+  const VectorXd variance = error.array().square();
+  EXPECT_EQ(detail::search_fit_options(runs, "y", false).noise, Noise::pooled);
+  runs.problem.responses[0].standard_error_freedom = 3;
+  const FitOptions weighed = detail::search_fit_options(runs, "y", false);
+  EXPECT_EQ(weighed.noise, Noise::known);
+  EXPECT_EQ(weighed.noise_variance, moderated_noise(variance, 3.0));
+}

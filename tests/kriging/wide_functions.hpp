@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-/// Functions of ten and twenty inputs on [0, 1]^d, most of them to judge the structures of a correlation by.
+/// Functions of eight, ten and twenty inputs on [0, 1]^d, most of them to judge the structures of a correlation by.
 ///
 ///   sum     Σ aₖ sin((2 + k mod 4) xₖ + k), aₖ = 1, ½ and ¼ in turn: each input alone
 ///   mixed   the sum and 0.3 Σ sin(2π xₖxₖ₊₁) of neighbouring pairs: nearly alone
@@ -11,6 +11,7 @@
 ///   friedman10  friedman5 with five inputs that do nothing
 ///   welch20     a few inputs do much, most nearly nothing, two pairs interact: Welch et al. 1992,
 ///               Technometrics 34(1), "Screening, predicting, and computer experiments", example 2
+///   arm8        where a robot's arm of four joints ends, rough in its four angles; four lengths
 ///   nothing10   0, with noise of deviation 1
 
 #include <Eigen/Core>
@@ -47,6 +48,16 @@ inline double welch20(const Eigen::VectorXd& u) {
          0.07 * x[10] + 0.25 * x[12] * x[12] - 0.04 * x[13] + 0.06 * x[14] - 0.01 * x[16] - 0.03 * x[17];
 }
 
+inline double robot_arm(const Eigen::VectorXd& x) {
+  double u = 0, v = 0, angle = 0;
+  for (int k = 0; k < 4; ++k) {
+    angle += 2 * pi * x[k];
+    u += x[4 + k] * std::cos(angle);
+    v += x[4 + k] * std::sin(angle);
+  }
+  return std::hypot(u, v);
+}
+
 inline std::vector<TestFunction> wide_functions() {
   const auto plain = [](double (*f)(const Eigen::VectorXd&)) {
     return [f](const Eigen::VectorXd& x, doe::Seed) { return f(x); };
@@ -61,6 +72,7 @@ inline std::vector<TestFunction> wide_functions() {
           {"radial20", 20, 0, plain(radial)},
           {"friedman10", 10, 0, plain(friedman10)},
           {"welch20", 20, 0, plain(welch20)},
+          {"arm8", 8, 0, plain(robot_arm)},
           {"nothing10", 10, 1, [](const Eigen::VectorXd&, doe::Seed) { return 0.0; }}};
 }
 

@@ -62,6 +62,7 @@ std::vector<std::string> suspects(const Models& fitted, const Tables& tables) {
     if (way == ways.end()) continue;
     kriging::OutlierOptions options;
     if (knows_noise(model)) options.noise_variance = noise.variance;
+    options.noise = way->noise;
     for (const kriging::Outlier& outlier :
          kriging::find_outliers(model, X, tables.training.y(response.name), way->fitter, options))
       sentences.push_back(sentence(outlier, response, runs[static_cast<std::size_t>(outlier.run)]));

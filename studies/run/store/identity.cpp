@@ -94,7 +94,7 @@ std::optional<doe::Problem> before_later_responses(const doe::Problem& there, co
   for (doe::Response& response : before.responses)
     if (std::any_of(later, here.responses.end(),
                     [&](const auto& r) { return r.name == response.standard_error; }))
-      response.standard_error.clear(), response.standard_error_freedom = 0;
+      response.forget_standard_error();
   if (!difference(there, before).empty()) return {};
   return before;
 }

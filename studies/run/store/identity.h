@@ -21,7 +21,7 @@ struct Identity {
   int replicates = 1;          ///< runs per training point
   bool corners = false;        ///< the first 2^d training points are the corners of the box
   OptionValues options = {};   ///< a value of every option of the study
-  std::string simulator = {};  ///< Study::simulator
+  std::string simulator = {};  ///< Simulator::name
 };
 
 /// The first difference in words ('variable "alpha": upper bound 2 there, 3 here'), or "" if there is none.

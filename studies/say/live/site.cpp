@@ -26,7 +26,8 @@ Answer as_json(const Json& json, int status = 200) {
 /// Throws std::runtime_error where there is none, or it says nothing of single runs.
 const Run& run_in(const Study& study, const View& view, std::int64_t run) {
   if (!study.presentation.illustrate)
-    throw std::runtime_error("this study does not say what to draw of a run's log (Study::illustrate)");
+    throw std::runtime_error(
+        "this study does not say what to draw of a run's log (Presentation::illustrate)");
   if (!view.contents || run < 1 || run > static_cast<std::int64_t>(view.contents->runs.size()))
     throw std::runtime_error("there is no run " + std::to_string(run));
   return view.contents->runs[static_cast<std::size_t>(run) - 1];

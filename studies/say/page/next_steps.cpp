@@ -62,10 +62,10 @@ Steps steps_for_errors(const ReportInput& input) {
 Steps steps_for_models(const ReportInput& input) {
   Steps steps;
   if (const std::string flat = flat_objectives(input.flat, input.problem); !flat.empty())
-    steps.push_back({"Decide what to do about " + flat +
-                         ", which shows no difference between strategies: more "
-                         "cycles or samples per run in a study begun anew, or another response.",
-                     ""});
+    steps.push_back(
+        {"Strategies do not differ clearly in " + flat +
+             ": decide on more cycles or samples per run in a study begun anew, or on another response.",
+         ""});
   if (const std::string noisy = poor_names(input, true); !noisy.empty())
     steps.push_back(
         {"Make runs quieter before more of them: single runs scatter more in " + noisy +

@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: Drawpoint contributors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// Whether runs of which no two are at the same point are those of a simulator without noise.
+///
+/// The default fit expects some noise (detail/prior.hpp), or pure noise would pass for signal. Of a response that is
+/// rough for its runs it then takes the roughness for noise, and its intervals are far too narrow. The likelihood
+/// tells the two apart. The runs are taken for exact where
+/// * without noise they are likelier than as the default has them, by more than least_gain in ln L: noise of a few per
+///   cent that is really there makes exact runs unlikelier, by 5 to 60 for 40 to 120 runs of smooth functions;
+/// * without noise they are likelier than noise about the trend alone, by more than one data set of a thousand of such
+///   noise would have it: half of the 99.9 % quantile of χ² with a degree for each parameter of the correlation;
+/// * they are predicted without themselves at least as well, by shares of the box (box_shares.hpp): of designs with many
+///   corners the likeliest fit is now and then a poor one (choice.hpp).
+/// Cost: a search from few starts where the default finds noise, a whole one where that comes near.
+
+#include <cmath>
+#include <drawpoint/kriging/detail/box_shares.hpp>
+#include <drawpoint/kriging/detail/fit_prepared.hpp>
+#include <drawpoint/kriging/detail/left_out.hpp>
+#include <drawpoint/kriging/model.hpp>
+#include <drawpoint/kriging/options.hpp>
+#include <string>
+
+namespace drawpoint::kriging::detail {
+
+inline constexpr double least_gain = 4.0;
+inline constexpr double far_below = 10.0;  ///< ln L that more starts do not make up for
+inline constexpr int few_starts = 2;
+inline constexpr double as_well = 1.1;  ///< a mean square up to so many times another one is as good
+
+/// Whether the noise that a fit found may be the default's expectation.
+inline bool may_be_exact(const Model& noisy, const TrainingData& data, const FitOptions& options) {
+  const bool expects_noise =
+      options.estimation == Estimation::penalized_likelihood && options.nugget_power > 0;
+  const bool free = options.nugget_lower <= exact_nugget && options.nugget_upper > exact_nugget;
+  return expects_noise && free && noisy.nugget() > exact_nugget && std::isfinite(noisy.log_likelihood()) &&
+         data.X.rows() > data.F.cols() + 1;
+}
+
+/// 99.9 % quantile of χ², by Wilson and Hilferty's cube, to 1 % from one degree on.
+inline double chance_quantile(double degrees) {
+  const double share = 2.0 / (9.0 * degrees);
+  return degrees * std::pow(1.0 - share + 3.0902 * std::sqrt(share), 3);
+}
+
+/// ln L of noise about the trend of a model, in the unit of y.
+inline double likelihood_of_noise(const TrainingData& data, const FitOptions& options) {
+  Likelihood likelihood(likelihood_problem(data, options));
+  likelihood.value(uncorrelated(parameter_box(data, likelihood, options), options));
+  return likelihood.estimates().log_likelihood - static_cast<double>(data.X.rows()) * std::log(data.y_scale);
+}
+
+inline bool is_far_below(const Model& exact, const Model& noisy) {
+  return !(exact.log_likelihood() > noisy.log_likelihood() + least_gain - far_below);
+}
+
+/// Mean square of leave-one-out errors by shares of the box, standardised; share: of the runs of the model.
+inline double left_out_by_share(const ModelState& s, const Eigen::VectorXd& share) {
+  const Eigen::VectorXd error = left_out(s.L, s.gls, s.X).error;
+  return dot(share, entry_products(error, error));
+}
+
+inline bool predicts_as_well(const Model& exact, const Model& noisy) {
+  const Eigen::VectorXd share = shares_of_box(noisy.state().X, noisy.correlation().levels);
+  return left_out_by_share(exact.state(), share) <= as_well * left_out_by_share(noisy.state(), share);
+}
+
+inline bool is_exact(const Model& exact, const Model& noisy, const TrainingData& data,
+                     const FitOptions& options) {
+  if (!(exact.log_likelihood() - noisy.log_likelihood() > least_gain)) return false;
+  const auto degrees = static_cast<double>(exact.theta().size() + exact.correlation().exponent.size());
+  return exact.log_likelihood() - likelihood_of_noise(data, options) > 0.5 * chance_quantile(degrees) &&
+         predicts_as_well(exact, noisy);
+}
+
+/// The model with a sentence of its choice.
+inline Model said_exact(const Model& exact, const Model& noisy) {
+  ModelState state = exact.state();
+  state.report.message += "; the model meets the runs, which are e^" +
+                          text(std::round(10.0 * (exact.log_likelihood() - noisy.log_likelihood())) / 10.0) +
+                          " times as likely without noise as with noise of " +
+                          text(std::sqrt(noisy.noise_variance())) +
+                          ": repeat a run if the simulator may have some";
+  return Model(std::move(state));
+}
+
+}  // namespace drawpoint::kriging::detail
