@@ -32,18 +32,19 @@ inline std::vector<Eigen::Index> front_rows(const Eigen::MatrixXd& Y, const std:
   return front;
 }
 
-/// A tenth of the extent of the front, rows of Y, beyond it: ends of the front can still be improved on, and places
-/// that are far from it are worth nothing. Two or three runs may lie at nearly one value of an objective: their front
-/// counts as a tenth of the extent of all runs at least, and one without extent as all of it.
+/// As far beyond the front, rows of Y, as that is long, but no farther than the worst of all runs: early fronts are short,
+/// and what would make them longer is worth something, while places that are far from the front are worth nothing. Two or
+/// three runs may lie at nearly one value of an objective: their front counts as a tenth of the extent of all runs at
+/// least, and one without extent as all of it. Where the worst run ends the front, a tenth of all runs' extent beyond.
 inline Eigen::VectorXd reference_beyond(const Eigen::MatrixXd& Y, const std::vector<Eigen::Index>& front) {
   Eigen::VectorXd reference(Y.cols());
   for (Eigen::Index k = 0; k < Y.cols(); ++k) {
     const Eigen::VectorXd all = Y.col(k), best = entries_of(all, front);
-    const double low = smallest_entry(best), high = largest_entry(best);
-    const double size = std::max(std::abs(smallest_entry(all)), std::abs(largest_entry(all)));
-    const double of_all = largest_entry(all) - low, least = 1e-9 * (size > 0 ? size : 1.0);
-    const double extent = std::max(high > low ? std::max(high - low, 0.1 * of_all) : of_all, least);
-    reference[k] = (high > low ? high : low + extent) + 0.1 * extent;
+    const double low = smallest_entry(best), high = largest_entry(best), worst = largest_entry(all);
+    const double size = std::max(std::abs(smallest_entry(all)), std::abs(worst));
+    const double of_all = std::max(worst - smallest_entry(all), 1e-9 * (size > 0 ? size : 1.0));
+    const double extent = high > low ? std::max(high - low, 0.1 * of_all) : of_all;
+    reference[k] = worst > high ? std::min(worst, high + extent) : high + 0.1 * of_all;
   }
   return reference;
 }

@@ -186,28 +186,31 @@ TEST(ExpectedHypervolumeImprovement, IsZeroAtTheRuns) {
             probability_of_feasibility(problem, models)(X));
 }
 
-// By hand: rows 0 to 2 are the front, row 3 is dominated, row 4 repeats row 0. In any unit.
-TEST(FrontView, ReachesATenthOfTheFrontBeyondIt) {
-  const MatrixXd Y = (MatrixXd(5, 2) << 0, 4, 1, 2, 3, 1, 3, 3, 0, 4).finished();
+// By hand: rows 0 to 2 are the front, row 3 is dominated, row 4 repeats row 0. The front is 3 long in both objectives; the
+// worst run lies 1 beyond it in the first and 6 in the second. In any unit.
+TEST(FrontView, ReachesAsFarBeyondTheFrontAsThatIsLong) {
+  const MatrixXd Y = (MatrixXd(5, 2) << 0, 4, 1, 2, 3, 1, 4, 10, 0, 4).finished();
   for (const double unit : {1e-12, 1.0, 1e12}) {
     const std::vector<Eigen::Index> front = detail::front_rows(unit * Y, {0, 1, 2, 3, 4});
     EXPECT_EQ(front, (std::vector<Eigen::Index>{0, 1, 2}));
     const VectorXd reference = detail::reference_beyond(unit * Y, front) / unit;
-    EXPECT_NEAR(reference[0], 3.3, 1e-12);
-    EXPECT_NEAR(reference[1], 4.3, 1e-12);
+    EXPECT_NEAR(reference[0], 4, 1e-12);
+    EXPECT_NEAR(reference[1], 7, 1e-12);
     const FrontView view = detail::front_view(unit * Y, Eigen::Vector2d(1, -1), front);
     EXPECT_EQ(view.Y(2, 1), -unit);
-    EXPECT_NEAR(view.reference[1] / unit, -4.3, 1e-12);
+    EXPECT_NEAR(view.reference[1] / unit, -7, 1e-12);
   }
-  EXPECT_EQ(detail::front_rows(Y, {3, 4}), (std::vector<Eigen::Index>{3, 4}));
+  EXPECT_EQ(detail::front_rows(Y, {3, 4}), (std::vector<Eigen::Index>{4}));
+  const MatrixXd ends = Y.topRows(3);  // the worst run is on the front
+  EXPECT_LT((detail::reference_beyond(ends, {0, 1, 2}) - Eigen::Vector2d(3.3, 4.3)).norm(), 1e-12);
 }
 
-// One point: all runs and a tenth. Two that differ by round-off in an objective: a tenth of a tenth of all runs.
+// One point: all runs. Two that differ by round-off in an objective: a tenth of all runs.
 TEST(FrontView, OfFewRunsReachesFarEnough) {
   const MatrixXd one = (MatrixXd(2, 2) << 0, 0, 2, 4).finished();
-  EXPECT_LT((detail::reference_beyond(one, {0}) - Eigen::Vector2d(2.2, 4.4)).norm(), 1e-12);
+  EXPECT_LT((detail::reference_beyond(one, {0}) - Eigen::Vector2d(2, 4)).norm(), 1e-12);
   const MatrixXd two = (MatrixXd(3, 2) << 0, 1, 1, 1 - 1e-12, 2, 5).finished();
-  EXPECT_LT((detail::reference_beyond(two, {0, 1}) - Eigen::Vector2d(1.1, 1.04)).norm(), 1e-9);
+  EXPECT_LT((detail::reference_beyond(two, {0, 1}) - Eigen::Vector2d(2, 1.4)).norm(), 1e-9);
 }
 
 // Kriging models behind AnySurrogate are re-interpolated as they are alone: noisy runs do not ask for
