@@ -85,6 +85,8 @@ def differences(given):
             yield [kind, first, response, len(base), f"{statistics.mean(base):.4g}", "", ""]
             for other in others:
                 paired = [pile for pile in piles if (kind, pile, other) in value]
+                if not paired:
+                    continue
                 gained = [float(value[kind, pile, other][response]) - float(value[kind, pile, first][response])
                           for pile in paired]
                 half = (STUDENT[min(len(gained) - 1, 20)] * statistics.stdev(gained) / math.sqrt(len(gained))

@@ -65,7 +65,7 @@ def unseen_piles(rows):
         axes.set_ylabel(label)
         axes.set_ylim(bottom=0)
         axes.set_xticks([at * (len(strategies) + 1) + (len(strategies) - 1) / 2 for at in range(len(kinds))],
-                        [kind.replace("_", " ") for kind in kinds])
+                        [kind.replace("_", "\n") for kind in kinds])
     for name, colour in zip(strategies, FAMILIES.values()):
         panels[1].plot([], [], "o", color=colour, markersize=4, label=name.replace("_", " "))
     panels[1].legend()
