@@ -5,7 +5,8 @@
 /// A problem as JSON, for stores, reports and programs in other languages:
 ///
 ///     {"variables": [{"name", "unit", "lower", "upper", "kind", "levels"}, ...],
-///      "responses": [{"name", "unit", "goal", "limit", "lower", "upper", "standard_error", "standard_error_freedom"}, ...],
+///      "responses": [{"name", "unit", "goal", "limit", "lower", "upper", "standard_error",
+///                     "standard_error_freedom"}, ...],
 ///      "deterministic": true}
 ///
 /// Descriptions are left out: they may be worded anew, and the problem is the same. "kind" is left out for a

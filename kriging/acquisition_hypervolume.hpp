@@ -40,7 +40,8 @@ struct FrontView {
 
 namespace detail {
 
-/// Those rows of Y (n x m, all objectives minimised), with a reference point beyond them. sign: of the objectives.
+/// The view of these rows of Y (n x m, all objectives minimised) has a reference point beyond them. sign: of the
+/// objectives.
 inline FrontView front_view(const Eigen::MatrixXd& Y, const Eigen::VectorXd& sign,
                             const std::vector<Eigen::Index>& front) {
   FrontView view{rows_of(Y, front), entry_products(sign, reference_beyond(Y, front))};
@@ -240,9 +241,8 @@ doe::Criterion expected_hypervolume_improvement(const doe::Problem& problem, con
 }
 
 /// Improvement on the fitted values of the runs themselves that keep all limits, times the probability of
-/// feasibility. The reference point lies as far beyond their front as that is long, or at the
-/// worst run. While no run is feasible the score
-/// is that probability alone. Throws as above, and when the models were fitted to different numbers of runs.
+/// feasibility. The reference point lies as far beyond their front as that is long, or at the worst run. While no run
+/// is feasible the score is that probability alone. Throws as above, and when the models were fitted to different numbers of runs.
 template <Regression S>
 doe::Criterion constrained_hypervolume_improvement(const doe::Problem& problem,
                                                    const std::vector<S>& models) {

@@ -5,8 +5,8 @@
 /// The noise that a run has at a place, learnt from what runs tell of theirs.
 ///
 /// Standard errors of a few samples are off by chance, two samples' by their own size, so a fit should not
-/// take each for the truth (Noise::known), but draw it towards the others (moderated_noise.hpp). All together they know one size of noise well: of n runs of k
-/// samples each it is off by 1/√(2n(k − 1)) of itself (Noise::pooled), where the likelihood of the responses
+/// take each for the truth (Noise::known), but draw it towards the others (moderated_noise.hpp). All together they
+/// know one size of noise well: of n runs of k samples each it is off by 1/√(2n(k − 1)) of itself (Noise::pooled), where the likelihood of the responses
 /// alone may be off by several times. Where noise varies smoothly over the box, a Kriging model of all
 /// standard errors, on the scale of their logarithm, knows it better than any of them; its own noise is how
 /// far samples miss. It expects of normal samples 0.8 to 1.0 of their deviation, two samples to many. It does

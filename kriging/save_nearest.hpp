@@ -4,8 +4,8 @@
 
 /// Kriging models of many runs as JSON text: `save(model, "wear.json")`, `load_nearest("wear.json")`.
 ///
-/// The format is that of save.hpp, whose checks hold here too, with "format": "drawpoint nearest Kriging model" and "version":
-/// 1, with categories 2, isotropic 3. The file holds the runs and the parameters; cells and weights are
+/// The format is that of save.hpp, whose checks hold here too, with "format": "drawpoint nearest Kriging model"
+/// and "version": 1, with categories 2, isotropic 3. The file holds the runs and the parameters; cells and weights are
 /// computed anew by the same operations, so that a loaded model predicts the same bits. Size 25 bytes per
 /// number of the runs, cost of reading that of NearestModel's constructor.
 

@@ -27,13 +27,19 @@ namespace drawpoint::kriging::detail {
 /// A maximum's mean square error below this share of the other's speaks for it.
 inline constexpr double clearly_better = 0.5;
 
-/// Σ shareᵢ eᵢ² at p, standardised; +∞ where R is singular or the trend rests on one site.
+/// Σ shareᵢ eᵢ² of the leave-one-out errors of a fit to the rows of X, standardised.
+inline double squares_left_out(const Eigen::MatrixXd& L, const LeastSquares& gls, const Eigen::MatrixXd& X,
+                               const Eigen::VectorXd& share) {
+  const Eigen::VectorXd error = left_out(L, gls, X).error;
+  return dot(share, entry_products(error, error));
+}
+
+/// The same at p; +∞ where R is singular or the trend rests on one site.
 inline double predictive_error(Likelihood& likelihood, const Eigen::VectorXd& p,
                                const Eigen::VectorXd& share) {
   if (!std::isfinite(likelihood.value(p))) return std::numeric_limits<double>::infinity();
-  const Eigen::VectorXd error =
-      left_out(likelihood.cholesky(), likelihood.least_squares(), likelihood.problem().X).error;
-  const double sum = dot(share, entry_products(error, error));
+  const double sum =
+      squares_left_out(likelihood.cholesky(), likelihood.least_squares(), likelihood.problem().X, share);
   return std::isnan(sum) ? std::numeric_limits<double>::infinity() : sum;
 }
 

@@ -17,8 +17,8 @@
 
 #include <cmath>
 #include <drawpoint/kriging/detail/box_shares.hpp>
+#include <drawpoint/kriging/detail/choice.hpp>
 #include <drawpoint/kriging/detail/fit_prepared.hpp>
-#include <drawpoint/kriging/detail/left_out.hpp>
 #include <drawpoint/kriging/model.hpp>
 #include <drawpoint/kriging/options.hpp>
 #include <string>
@@ -56,15 +56,11 @@ inline bool is_far_below(const Model& exact, const Model& noisy) {
   return !(exact.log_likelihood() > noisy.log_likelihood() + least_gain - far_below);
 }
 
-/// Mean square of leave-one-out errors by shares of the box, standardised; share: of the runs of the model.
-inline double left_out_by_share(const ModelState& s, const Eigen::VectorXd& share) {
-  const Eigen::VectorXd error = left_out(s.L, s.gls, s.X).error;
-  return dot(share, entry_products(error, error));
-}
-
+/// By leave-one-out errors, each run counted by its share of the box.
 inline bool predicts_as_well(const Model& exact, const Model& noisy) {
-  const Eigen::VectorXd share = shares_of_box(noisy.state().X, noisy.correlation().levels);
-  return left_out_by_share(exact.state(), share) <= as_well * left_out_by_share(noisy.state(), share);
+  const ModelState &e = exact.state(), &n = noisy.state();
+  const Eigen::VectorXd share = shares_of_box(n.X, n.correlation.levels);
+  return squares_left_out(e.L, e.gls, e.X, share) <= as_well * squares_left_out(n.L, n.gls, n.X, share);
 }
 
 inline bool is_exact(const Model& exact, const Model& noisy, const TrainingData& data,

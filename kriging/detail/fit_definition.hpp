@@ -38,7 +38,7 @@ inline Model fit_to(const Eigen::MatrixXd& X, const TrainingData& data, const Fi
   return leave_one_out_error(blind.state()) < leave_one_out_error(model.state()) ? blind : model;
 }
 
-/// The same, and where the noise is not known, without any where the runs are clearly likelier so.
+/// The same, but without noise where the runs are clearly likelier without any.
 inline Model fit_either(const Eigen::MatrixXd& X, const TrainingData& data, const FitOptions& options) {
   const Model noisy = fit_to(X, data, options);
   if (!may_be_exact(noisy, data, options)) return noisy;
@@ -46,6 +46,7 @@ inline Model fit_either(const Eigen::MatrixXd& X, const TrainingData& data, cons
   if (exact.starts > few_starts) {
     FitOptions quick = exact;
     quick.starts = few_starts;
+    quick.parameter_uncertainty = false;  // only its likelihood is asked for
     if (is_far_below(fit_to(X, data, quick), noisy)) return noisy;
   }
   const Model model = fit_to(X, data, exact);

@@ -22,7 +22,7 @@ inline bool covers(const Eigen::MatrixXd& Y, Eigen::Index a, Eigen::Index b) {
   return better || a < b;
 }
 
-/// Those of the rows of Y that no other of them covers. Cost rows² m.
+/// Gives those of the rows of Y that no other of them covers. Cost rows² m.
 inline std::vector<Eigen::Index> front_rows(const Eigen::MatrixXd& Y, const std::vector<Eigen::Index>& rows) {
   std::vector<Eigen::Index> front;
   for (const Eigen::Index i : rows)
@@ -32,8 +32,8 @@ inline std::vector<Eigen::Index> front_rows(const Eigen::MatrixXd& Y, const std:
   return front;
 }
 
-/// As far beyond the front, rows of Y, as that is long, but no farther than the worst of all runs: early fronts are short,
-/// and what would make them longer is worth something, while places that are far from the front are worth nothing. Two or
+/// The point lies as far beyond the front, rows of Y, as that is long, but no farther than the worst of all runs: early
+/// fronts are short, and what would make them longer is worth something, while places that are far from the front are worth nothing. Two or
 /// three runs may lie at nearly one value of an objective: their front counts as a tenth of the extent of all runs at
 /// least, and one without extent as all of it. Where the worst run ends the front, a tenth of all runs' extent beyond.
 inline Eigen::VectorXd reference_beyond(const Eigen::MatrixXd& Y, const std::vector<Eigen::Index>& front) {

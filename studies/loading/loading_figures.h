@@ -22,7 +22,7 @@ void settle_pile(engine::loading::Scenario scenario);
 /// options. Throws std::runtime_error if the log cannot be read.
 nlohmann::json loading_figures(const std::filesystem::path& log, const OptionValues& options = {});
 
-/// Those of every cycle, each with its number as "cycle" (Presentation::replay). Throws likewise.
+/// Gives those of every cycle, each with its number as "cycle" (Presentation::replay). Throws likewise.
 nlohmann::json loading_replay(const std::filesystem::path& log, const OptionValues& options = {});
 
 }  // namespace drawpoint::studies
