@@ -268,6 +268,12 @@ inline bool is_standard_error(const Problem& problem, std::size_t j) {
                      [&](const Response& of) { return of.standard_error == problem.responses[j].name; });
 }
 
+/// Whether runs tell the noise of a response: then the simulator has some, in all that it responds.
+inline bool tells_noise(const Problem& problem) {
+  return std::any_of(problem.responses.begin(), problem.responses.end(),
+                     [](const Response& r) { return !r.standard_error.empty(); });
+}
+
 /// Place of a response in Problem::responses; throws std::invalid_argument when there is none of that name.
 inline int response_index(const Problem& problem, std::string_view name) {
   std::string known;

@@ -103,6 +103,9 @@ struct FitOptions {
   /// few runs that cannot tell noise from none are taken to have some, or error bars are too narrow. 0 for a
   /// simulator that has none: 0 to 5 % less error in the mean (docs/measurements/kriging.md).
   double nugget_power = 0.5;
+  /// Whether runs without repeats may be taken for exact (Noise::nugget). False where the simulator is known to have
+  /// noise, of whatever size.
+  bool may_be_exact = true;
   /// Whether variances hold what the estimates of θ, the exponents and λ leave unknown
   /// (detail/parameter_uncertainty.hpp).
   bool parameter_uncertainty = true;

@@ -33,7 +33,7 @@ const doe::Problem problem{
                    .unit = "kg/s",
                    .goal = doe::Goal::maximize,
                    .lower = 0,
-                   .description = "loaded mass over the time of a cycle, mean of the cycles",
+                   .description = "loaded mass over the time of a cycle and its haul, mean of the cycles",
                    .standard_error = "production_error"},
                   {.name = "energy",
                    .unit = "kJ/t",
@@ -80,8 +80,10 @@ doe::Outcome responses_of(const LoadingLog& log, const studies::OptionValues& op
 
 std::vector<studies::StudyOption> options() {
   auto options = studies::loading_options_without({"speeds", "yield-torque", "damage", "spill", "arm"});
-  for (auto& option : options)
+  for (auto& option : options) {
     if (option.name == "operator") option.value = "skilled";
+    if (option.name == "haul") option.value = "120";
+  }
   return options;
 }
 

@@ -46,9 +46,10 @@ hold 500 new observations.
 
 One row per function, design, number of runs and way to fit; medians over the seeds. NRMSE is the error of the
 mean against the function without noise, over the range of it (over the noise where the function is 0), `worst`
-its largest. Then the per cent of new observations, noise included, within the central 50, 80 and 95 %
-intervals, the noise that was found over the true one (without noise: over the range), CPU seconds per fit, how
-many fits did not converge, and how many took half of the variance of the noise or more for signal.
+its largest. Then the per cent of the function's values within the 95 % intervals of the mean (`latent`) and of
+new observations, noise included, within the central 50, 80 and 95 % intervals of a run, the noise that was found
+over the true one (without noise: over the range), CPU seconds per fit, how many fits did not converge, and how
+many took half of the variance of the noise or more for signal.
 
 Ways: `default`; `plug-in`, the same with its parameters taken as known; `likeliest`, plain maximum likelihood
 with its parameters taken as known; `expect-none`, the default with nugget_power 0, which expects no noise;
@@ -149,9 +150,16 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
 
 /// What the seeds gave.
 struct Row {
-  std::vector<double> nrmse, noise, seconds, coverage[3];
+  std::vector<double> nrmse, noise, seconds, latent, coverage[3];
   int unsettled = 0, misled = 0;  ///< misled: by noise, half of which or more they follow
 };
+
+/// Per cent of the function's values within the 95 % intervals of the mean.
+double latent_coverage(const Model& model, const Case& c) {
+  const Prediction p = model.predict(c.Z);
+  const auto held = ((p.mean - c.truth).array().abs() <= 1.96 * p.variance.array().sqrt()).count();
+  return 100.0 * static_cast<double>(held) / static_cast<double>(c.truth.size());
+}
 
 void add(Row& row, const Case& c, const Way& way) {
   const double start = benchmarks::cpu_seconds();
@@ -164,15 +172,16 @@ void add(Row& row, const Case& c, const Way& way) {
                       unit);
   row.noise.push_back(std::sqrt(model.noise_variance()) / (c.noise > 0 ? c.noise : unit));
   if (model.noise_variance() < 0.5 * c.noise * c.noise) ++row.misled;
+  row.latent.push_back(latent_coverage(model.model(), c));
   const double levels[] = {0.5, 0.8, 0.95};
   for (int k = 0; k < 3; ++k) row.coverage[k].push_back(100.0 * score(v, ErrorFunction::coverage, levels[k]));
 }
 
 void print(const std::string& place, const std::string& way, const Row& row) {
-  std::printf("%s %-11s %9.5f %9.5f  %5.1f %5.1f %5.1f  %7.4f %7.3f %4d %6d\n", place.c_str(), way.c_str(),
-              median(row.nrmse), *std::max_element(row.nrmse.begin(), row.nrmse.end()),
-              median(row.coverage[0]), median(row.coverage[1]), median(row.coverage[2]), median(row.noise),
-              median(row.seconds), row.unsettled, row.misled);
+  std::printf("%s %-11s %9.5f %9.5f  %6.1f %5.1f %5.1f %5.1f  %7.4f %7.3f %4d %6d\n", place.c_str(),
+              way.c_str(), median(row.nrmse), *std::max_element(row.nrmse.begin(), row.nrmse.end()),
+              median(row.latent), median(row.coverage[0]), median(row.coverage[1]), median(row.coverage[2]),
+              median(row.noise), median(row.seconds), row.unsettled, row.misled);
   std::fflush(stdout);
 }
 
@@ -264,8 +273,9 @@ int main(int argc, char** argv) {
     if (!settings.folder.empty())
       std::filesystem::create_directories(settings.folder);
     else
-      std::printf("%-12s %-8s %4s %-11s %9s %9s  %5s %5s %5s  %7s %7s %4s %6s\n", "function", "design",
-                  "runs", "way", "NRMSE", "worst", "50 %", "80 %", "95 %", "noise", "CPU s", "not", "misled");
+      std::printf("%-12s %-8s %4s %-11s %9s %9s  %6s %5s %5s %5s  %7s %7s %4s %6s\n", "function", "design",
+                  "runs", "way", "NRMSE", "worst", "latent", "50 %", "80 %", "95 %", "noise", "CPU s", "not",
+                  "misled");
     for (const reference::TestFunction& f : functions())
       if (contains(settings.functions, f.name))
         for (const std::string& kind : settings.designs)

@@ -6,34 +6,36 @@
 ///
 /// The default fit expects some noise (detail/prior.hpp), or pure noise would pass for signal. Of a response that is
 /// rough for its runs it then takes the roughness for noise, and its intervals are far too narrow. The likelihood
-/// tells the two apart. The runs are taken for exact where
-/// * without noise they are likelier than as the default has them, by more than least_gain in ln L: noise of a few per
-///   cent that is really there makes exact runs unlikelier, by 5 to 60 for 40 to 120 runs of smooth functions;
+/// tells the two apart, where it does. The runs are taken for exact where
+/// * without noise, the prior of length scales kept, they are likelier by more than least_gain in ln L: noise of a few
+///   per cent that is really there makes exact runs unlikelier, by 5 to 60 for 40 to 120 runs of smooth functions;
 /// * without noise they are likelier than noise about the trend alone, by more than one data set of a thousand of such
 ///   noise would have it: half of the 99.9 % quantile of χ² with a degree for each parameter of the correlation;
 /// * they are predicted without themselves at least as well, by shares of the box (box_shares.hpp): of designs with many
-///   corners the likeliest fit is now and then a poor one (choice.hpp).
-/// Cost: a search from few starts where the default finds noise, a whole one where that comes near.
+///   corners the likeliest fit is now and then a poor one (choice.hpp);
+/// * runs of the noisy model would not gain as much (simulated_gains.hpp), unless the gain is above sure_gain, three
+///   times what noisy runs ever gained.
+/// Cost: two searches from few starts where the default finds noise, a whole one where these come near, and as many as
+/// sixteen from few starts where only the last is left.
 
 #include <cmath>
 #include <drawpoint/kriging/detail/box_shares.hpp>
 #include <drawpoint/kriging/detail/choice.hpp>
-#include <drawpoint/kriging/detail/fit_prepared.hpp>
+#include <drawpoint/kriging/detail/simulated_gains.hpp>
 #include <drawpoint/kriging/model.hpp>
 #include <drawpoint/kriging/options.hpp>
 #include <string>
 
 namespace drawpoint::kriging::detail {
 
-inline constexpr double least_gain = 4.0;
-inline constexpr double far_below = 10.0;  ///< ln L that more starts do not make up for
-inline constexpr int few_starts = 2;
+inline constexpr double least_gain = 2.0;
+inline constexpr double sure_gain = 30.0;
 inline constexpr double as_well = 1.1;  ///< a mean square up to so many times another one is as good
 
 /// Whether the noise that a fit found may be the default's expectation.
-inline bool may_be_exact(const Model& noisy, const TrainingData& data, const FitOptions& options) {
-  const bool expects_noise =
-      options.estimation == Estimation::penalized_likelihood && options.nugget_power > 0;
+inline bool may_be_expected(const Model& noisy, const TrainingData& data, const FitOptions& options) {
+  const bool expects_noise = options.may_be_exact && options.nugget_power > 0 &&
+                             options.estimation == Estimation::penalized_likelihood;
   const bool free = options.nugget_lower <= exact_nugget && options.nugget_upper > exact_nugget;
   return expects_noise && free && noisy.nugget() > exact_nugget && std::isfinite(noisy.log_likelihood()) &&
          data.X.rows() > data.F.cols() + 1;
@@ -45,15 +47,14 @@ inline double chance_quantile(double degrees) {
   return degrees * std::pow(1.0 - share + 3.0902 * std::sqrt(share), 3);
 }
 
-/// ln L of noise about the trend of a model, in the unit of y.
-inline double likelihood_of_noise(const TrainingData& data, const FitOptions& options) {
+/// Whether an exact model is likelier than noise about the trend would make it.
+inline bool is_more_than_noise(const Model& exact, const TrainingData& data, const FitOptions& options) {
   Likelihood likelihood(likelihood_problem(data, options));
   likelihood.value(uncorrelated(parameter_box(data, likelihood, options), options));
-  return likelihood.estimates().log_likelihood - static_cast<double>(data.X.rows()) * std::log(data.y_scale);
-}
-
-inline bool is_far_below(const Model& exact, const Model& noisy) {
-  return !(exact.log_likelihood() > noisy.log_likelihood() + least_gain - far_below);
+  const double of_noise =
+      likelihood.estimates().log_likelihood - static_cast<double>(data.X.rows()) * std::log(data.y_scale);
+  const auto degrees = static_cast<double>(exact.theta().size() + exact.correlation().exponent.size());
+  return exact.log_likelihood() - of_noise > 0.5 * chance_quantile(degrees);
 }
 
 /// By leave-one-out errors, each run counted by its share of the box.
@@ -63,19 +64,10 @@ inline bool predicts_as_well(const Model& exact, const Model& noisy) {
   return squares_left_out(e.L, e.gls, e.X, share) <= as_well * squares_left_out(n.L, n.gls, n.X, share);
 }
 
-inline bool is_exact(const Model& exact, const Model& noisy, const TrainingData& data,
-                     const FitOptions& options) {
-  if (!(exact.log_likelihood() - noisy.log_likelihood() > least_gain)) return false;
-  const auto degrees = static_cast<double>(exact.theta().size() + exact.correlation().exponent.size());
-  return exact.log_likelihood() - likelihood_of_noise(data, options) > 0.5 * chance_quantile(degrees) &&
-         predicts_as_well(exact, noisy);
-}
-
 /// The model with a sentence of its choice.
-inline Model said_exact(const Model& exact, const Model& noisy) {
+inline Model said_exact(const Model& exact, const Model& noisy, double gain) {
   ModelState state = exact.state();
-  state.report.message += "; the model meets the runs, which are e^" +
-                          text(std::round(10.0 * (exact.log_likelihood() - noisy.log_likelihood())) / 10.0) +
+  state.report.message += "; the model meets the runs, which are e^" + text(std::round(10.0 * gain) / 10.0) +
                           " times as likely without noise as with noise of " +
                           text(std::sqrt(noisy.noise_variance())) +
                           ": repeat a run if the simulator may have some";

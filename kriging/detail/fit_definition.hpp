@@ -19,11 +19,18 @@
 namespace drawpoint::kriging {
 namespace detail {
 
-/// What Noise::none stands for.
-inline FitOptions with_exact_runs(FitOptions options) {
-  options.estimation = Estimation::maximum_likelihood;
+/// Without noise but for round-off, its length scales expected as before.
+inline FitOptions without_noise(FitOptions options) {
   options.nugget_upper = std::max(options.nugget_lower, std::min(options.nugget_upper, exact_nugget));
+  options.nugget_power = 0;
   return options;
+}
+
+/// What Noise::none stands for.
+inline FitOptions with_exact_runs(const FitOptions& options) {
+  FitOptions exact = without_noise(options);
+  exact.estimation = Estimation::maximum_likelihood;
+  return exact;
 }
 
 /// The model of these data, with the trend that the options ask for.
@@ -41,16 +48,14 @@ inline Model fit_to(const Eigen::MatrixXd& X, const TrainingData& data, const Fi
 /// The same, but without noise where the runs are clearly likelier without any.
 inline Model fit_either(const Eigen::MatrixXd& X, const TrainingData& data, const FitOptions& options) {
   const Model noisy = fit_to(X, data, options);
-  if (!may_be_exact(noisy, data, options)) return noisy;
-  FitOptions exact = with_exact_runs(options);
-  if (exact.starts > few_starts) {
-    FitOptions quick = exact;
-    quick.starts = few_starts;
-    quick.parameter_uncertainty = false;  // only its likelihood is asked for
-    if (is_far_below(fit_to(X, data, quick), noisy)) return noisy;
-  }
-  const Model model = fit_to(X, data, exact);
-  return is_exact(model, noisy, data, options) ? said_exact(model, noisy) : noisy;
+  if (!may_be_expected(noisy, data, options)) return noisy;
+  const FitOptions without = without_noise(options);
+  const double gain = gain_of(data, without, options);
+  if (!(gain > least_gain)) return noisy;
+  const Model exact = fit_to(X, data, with_exact_runs(options));
+  if (!is_more_than_noise(exact, data, options) || !predicts_as_well(exact, noisy)) return noisy;
+  if (gain < sure_gain && !beyond_chance(gain, noisy.state(), data, without, options)) return noisy;
+  return said_exact(exact, noisy, gain);
 }
 
 /// Fits the first run of each site, as exact runs; the others join that model.

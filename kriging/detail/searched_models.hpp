@@ -55,6 +55,7 @@ inline FitOptions search_fit_options(const doe::Evaluations& runs, std::string_v
   options.lower = doe::lower_bounds(runs.problem);
   options.upper = doe::upper_bounds(runs.problem);
   options.levels = doe::level_counts(runs.problem);
+  options.may_be_exact = !doe::tells_noise(runs.problem);
   const Eigen::VectorXd told = runs.noise_variance(name);
   if (exact) {
     options.noise = Noise::none;

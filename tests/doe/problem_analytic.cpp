@@ -177,6 +177,13 @@ TEST(Problem, SignsOfGoalsTurnToLessIsBetter) {
   for (const Goal goal : {Goal::maximize, Goal::at_least}) EXPECT_EQ(sign_of(goal), -1.0);
 }
 
+TEST(Problem, TellsNoiseWhereAResponseNamesItsStandardError) {
+  Problem problem{.variables = {{"alpha", "1", 0.2, 2.0}}, .responses = {{"fill", "1"}, {"error", "1"}}};
+  EXPECT_FALSE(tells_noise(problem));
+  problem.responses[0].standard_error = "error";
+  EXPECT_TRUE(tells_noise(problem));
+}
+
 TEST(Problem, BoundsAsVectors) {
   const Problem problem{.variables = {{"alpha", "1", 0.2, 2.0}, {"lip", "m", -1.0, 3.0}},
                         .responses = {{"fill", "1"}}};

@@ -7,14 +7,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <drawpoint/doe/latin_hypercube.hpp>
 #include <drawpoint/kriging/fit.hpp>
 #include <drawpoint/kriging/polynomial.hpp>
 #include <drawpoint/kriging/validate.hpp>
 #include <drawpoint/tests/kriging/corner_design.hpp>
 #include <drawpoint/tests/kriging/test_functions.hpp>
-#include <drawpoint/tests/kriging/wide_functions.hpp>
-#include <string>
 #include <vector>
 
 using namespace drawpoint;
@@ -108,81 +105,4 @@ TEST(DefaultFit, FindsNoiseThatFewRunsHide) {
     EXPECT_LT(found, 0.05 * 3) << "seed " << seed;
   }
   EXPECT_GE(unseen, 6) << "the designs no longer show what this test is about";
-}
-
-namespace {
-
-/// A random Latin hypercube on [0, 1]^d.
-MatrixXd random_cube(int n, int d, doe::Seed seed) {
-  doe::Problem box;
-  for (int k = 0; k < d; ++k) box.variables.push_back({"x" + std::to_string(k), "1", 0.0, 1.0});
-  box.responses = {{.name = "y", .unit = "1"}};
-  return doe::latin_hypercube(box, n, {.seed = seed});
-}
-
-}  // namespace
-
-// A robot's arm of four joints, rough in its angles, whose 120 exact runs pass for noisy ones. Told that there is no noise,
-// the fit meets the runs, its 95 % intervals hold 90 to 97 % of 4000 places of eight designs (93; one design scatters by 2), and its error is that of the likeliest fit.
-TEST(ExactRuns, AreMetAndLeaveIntervalsThatHold) {
-  double of_exact = 0, of_likeliest = 0;
-  int held = 0;
-  for (doe::Seed seed = 1; seed <= 8; ++seed) {
-    const MatrixXd X = reference::design(120, 8, seed), Z = reference::design(500, 8, 50 + seed);
-    const VectorXd y = reference::values(reference::robot_arm, X),
-                   truth = reference::values(reference::robot_arm, Z);
-    FitOptions options;
-    options.noise = Noise::none;
-    const Model exact = fit(X, y, options);
-    EXPECT_LE(exact.nugget(), 1e-6);
-    EXPECT_LT((exact.mean(X) - y).cwiseAbs().maxCoeff(), 1e-3);
-    const Prediction p = exact.predict(Z);
-    of_exact += (p.mean - truth).squaredNorm();
-    of_likeliest += (fit(X, y, likeliest()).mean(Z) - truth).squaredNorm();
-    held += static_cast<int>(((p.mean - truth).array().abs() <= 1.96 * p.variance.array().sqrt()).count());
-  }
-  EXPECT_GE(held, 0.90 * 4000);
-  EXPECT_LE(held, 0.97 * 4000);
-  EXPECT_LT(of_exact, 1.05 * of_likeliest);
-}
-
-// The default finds that out by itself where the likelihood leaves no doubt: intervals of the arm hold 88 % of the places
-// at least, 93 less three of the 2 that a design scatters by over √8, and less what is lost where one of eight designs is
-// taken for noisy; its error is at most that of the likeliest fit.
-TEST(ExactRuns, AreFoundByTheDefault) {
-  double of_default = 0, of_likeliest = 0;
-  int held = 0, exact = 0;
-  for (doe::Seed seed = 1; seed <= 8; ++seed) {
-    const MatrixXd X = random_cube(120, 8, seed);
-    const MatrixXd Z = reference::design(500, 8, 50 + seed);
-    const VectorXd y = reference::values(reference::robot_arm, X),
-                   truth = reference::values(reference::robot_arm, Z);
-    const Model model = fit(X, y);
-    exact += model.nugget() <= 1e-6;
-    const Prediction p = model.predict(Z);
-    of_default += (p.mean - truth).squaredNorm();
-    of_likeliest += (fit(X, y, likeliest()).mean(Z) - truth).squaredNorm();
-    held += static_cast<int>(((p.mean - truth).array().abs() <= 1.96 * p.variance.array().sqrt()).count());
-    if (model.nugget() <= 1e-6) {
-      EXPECT_NE(model.message().find("times as likely without noise"), std::string::npos);
-    }
-  }
-  EXPECT_GE(exact, 7);
-  EXPECT_GE(held, 0.88 * 4000);
-  EXPECT_LE(of_default, 1.02 * of_likeliest);
-}
-
-// The other side: of 60 responses of nothing but noise none passes for exact, nor do smooth ones with noise of a tenth.
-// One of a thousand of the former is expected to.
-TEST(ExactRuns, AreNotSeenInNoise) {
-  for (doe::Seed seed = 1; seed <= 60; ++seed) {
-    doe::RandomStream random(seed);
-    const MatrixXd X = reference::design(40, 4, seed);
-    VectorXd noise(40);
-    for (double& value : noise) value = random.normal();
-    EXPECT_GT(fit(X, noise).nugget(), 1e-6) << seed;
-    if (seed > 20) continue;
-    const VectorXd y = reference::values(reference::noisy4, X) / 5 + 0.1 * noise;
-    EXPECT_GT(fit(X, y).nugget(), 1e-6) << seed;
-  }
 }

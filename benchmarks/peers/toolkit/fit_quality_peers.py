@@ -61,8 +61,10 @@ def measured(predict, stem):
     seconds = time.process_time() - start
     mean, deviation = centre + scale * mean, scale * deviation
     unit = numpy.ptp(truth) or 1.0
+    latent = numpy.sqrt(numpy.maximum(deviation**2 - (scale * noise) ** 2, 0.0))
+    latent_held = 100.0 * (abs(mean - truth) <= PERCENT["95"] * latent).mean()
     held = [100.0 * (abs(mean - observed) <= z * deviation).mean() for z in PERCENT.values()]
-    return [numpy.sqrt(((mean - truth) ** 2).mean()) / unit, *held, scale * noise, seconds]
+    return [numpy.sqrt(((mean - truth) ** 2).mean()) / unit, latent_held, *held, scale * noise, seconds]
 
 
 def main():
@@ -73,7 +75,7 @@ def main():
         fits.update({"sklearn": sklearn_fits, "isotropic": lambda: sklearn_fits(True), "openturns": openturns_fits,
                      "linear": lambda: openturns_fits(True)}[name]())
     stems = sorted(str(path)[:-len("-train.csv")] for path in folder.glob("*-train.csv"))
-    print(f"{'function':12} {'design':8} {'runs':>4} {'way':9} {'NRMSE':>9} {'worst':>9}  {'50 %':>5} {'80 %':>5} {'95 %':>5}"
+    print(f"{'function':12} {'design':8} {'runs':>4} {'way':9} {'NRMSE':>9} {'worst':>9}  {'latent':>6} {'50 %':>5} {'80 %':>5} {'95 %':>5}"
           f"  {'noise':>9} {'CPU s':>7} {'not':>4}")
     for case, group in itertools.groupby(stems, key=lambda stem: re.sub(r"-\d+$", "", Path(stem).name)):
         group = list(group)
@@ -84,11 +86,11 @@ def main():
                     rows.append(measured(predict, stem))
                 except Exception:  # whatever a library throws is a fit that its user does not get
                     failed += 1
-            median = numpy.median(rows, axis=0) if rows else [numpy.nan] * 6
+            median = numpy.median(rows, axis=0) if rows else [numpy.nan] * 7
             worst = max((row[0] for row in rows), default=numpy.nan)
             function, design, runs = case.split("-")
-            print(f"{function:12} {design:8} {runs:>4} {name:9} {median[0]:9.5f} {worst:9.5f}  {median[1]:5.1f} {median[2]:5.1f}"
-                  f" {median[3]:5.1f}  {median[4]:9.4g} {median[5]:7.3f} {failed:4d}", flush=True)
+            print(f"{function:12} {design:8} {runs:>4} {name:9} {median[0]:9.5f} {worst:9.5f}  {median[1]:6.1f} {median[2]:5.1f}"
+                  f" {median[3]:5.1f} {median[4]:5.1f}  {median[5]:9.4g} {median[6]:7.3f} {failed:4d}", flush=True)
 
 
 if __name__ == "__main__":

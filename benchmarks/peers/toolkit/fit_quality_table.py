@@ -24,7 +24,7 @@ def rows_of(path):
     """{(function, design, runs): {way: (NRMSE, per cent held, not converged)}}"""
     rows = {}
     for line in Path(path).read_text().splitlines()[1:]:
-        function, design, runs, way, error, _, _, _, held, _, _, unsettled, *_ = line.split()
+        function, design, runs, way, error, _, _, _, _, held, _, _, unsettled, *_ = line.split()
         rows.setdefault((function, design, int(runs)), {})[way] = (float(error), float(held), int(unsettled))
     return rows
 

@@ -17,6 +17,7 @@ namespace {
 kriging::FitOptions default_fit(const doe::Problem& problem, const kriging::RunNoise& noise = {}) {
   kriging::FitOptions options;
   if (problem.deterministic) options.noise = kriging::Noise::none;
+  options.may_be_exact = !doe::tells_noise(problem);
   if (noise.noise == kriging::Noise::known) {
     options.noise = kriging::Noise::pooled;
     options.noise_variance = noise.variance;
