@@ -170,6 +170,45 @@ inline Eigen::MatrixXd neighbours(const SearchedModels& s, const std::vector<Eig
   return P;
 }
 
+/// Half the side of the region around the best run that every third run is chosen in, over the box: smaller the longer
+/// ago that run was.
+inline double region_around_best(const SearchedModels& s, Eigen::Index best) {
+  const auto age = static_cast<double>(s.X.rows() - 1 - best);
+  return std::max(0.01, 0.3 * std::pow(0.6, age / 6.0));
+}
+
+/// Whether x lies in that region; whole numbers may always go by one, categories anywhere.
+inline bool is_near(const doe::Problem& problem, const Eigen::VectorXd& best, double half, const Eigen::VectorXd& x) {
+  for (Eigen::Index k = 0; k < x.size(); ++k) {
+    const doe::Variable& v = problem.variables[static_cast<std::size_t>(k)];
+    if (v.kind == doe::VariableKind::categorical) continue;
+    double reach = half * (v.upper - v.lower);
+    if (v.kind == doe::VariableKind::integer) reach = std::max(1.0, reach);
+    if (std::abs(x[k] - best[k]) > reach * (1 + 1e-12)) return false;
+  }
+  return true;
+}
+
+/// `count` points of the region: count x d.
+inline Eigen::MatrixXd points_near(const doe::Problem& problem, const Eigen::VectorXd& best, double half,
+                                   Eigen::Index count, doe::Seed seed) {
+  doe::RandomStream random(seed);
+  Eigen::MatrixXd P(count, best.size());
+  for (Eigen::Index i = 0; i < count; ++i)
+    for (Eigen::Index k = 0; k < P.cols(); ++k) {
+      const doe::Variable& v = problem.variables[static_cast<std::size_t>(k)];
+      double reach = half * (v.upper - v.lower);
+      if (v.kind == doe::VariableKind::categorical)
+        P(i, k) = random.uniform() < 0.5 ? best[k] : v.lower + random.below(static_cast<int>(v.upper - v.lower) + 1);
+      else {
+        if (v.kind == doe::VariableKind::integer) reach = std::max(1.0, reach);
+        double x = std::clamp(best[k] + reach * (2 * random.uniform() - 1), v.lower, v.upper);
+        P(i, k) = v.kind == doe::VariableKind::integer ? std::round(x) : x;
+      }
+    }
+  return P;
+}
+
 /// What the next run is chosen by.
 struct NextRun {
   doe::Seed seed = 1;
@@ -200,6 +239,16 @@ inline std::optional<Eigen::VectorXd> next_run(const doe::Evaluations& ended, co
   const Incumbents best = incumbents_of(models);
   options.beside = neighbours(models, best.runs, 1000, doe::run_seed(by.seed, taken.rows.size(), 7));
   const bool expect = by.after_first % 3 == 2 || by.left <= 2;
+  if (!expect && by.after_first % 3 == 1 && best.feasible && std::getenv("TR")) {
+    const auto pick = best.runs[static_cast<std::size_t>(by.after_first) % best.runs.size()];
+    const Eigen::VectorXd centre = models.X.row(pick).transpose();
+    const double half = region_around_best(models, pick);
+    options.candidates = 1;
+    options.beside = points_near(models.problem, centre, half, 2000, doe::run_seed(by.seed, taken.rows.size(), 7));
+    options.allowed = [&, user = by.allowed](const Eigen::VectorXd& x) { return is_near(models.problem, centre, half, x) && (!user || user(x)); };
+    if (auto x = point_of(taken, most_improvement(models, best, false), options)) return x;
+    options.allowed = by.allowed; options.candidates = 2000; options.beside = neighbours(models, best.runs, 1000, doe::run_seed(by.seed, taken.rows.size(), 7));
+  }
   return point_of(taken, most_improvement(models, best, expect), options);
 }
 

@@ -62,7 +62,7 @@ def measured(predict, stem):
     mean, deviation = centre + scale * mean, scale * deviation
     unit = numpy.ptp(truth) or 1.0
     latent = numpy.sqrt(numpy.maximum(deviation**2 - (scale * noise) ** 2, 0.0))
-    latent_held = 100.0 * (abs(mean - truth) <= PERCENT["95"] * latent).mean()
+    latent_held = 100.0 * (abs(mean - truth) <= PERCENT[95] * latent).mean()
     held = [100.0 * (abs(mean - observed) <= z * deviation).mean() for z in PERCENT.values()]
     return [numpy.sqrt(((mean - truth) ** 2).mean()) / unit, latent_held, *held, scale * noise, seconds]
 
