@@ -7,8 +7,10 @@
 /// Two runs of three go where most improvement is expected, times the probability of keeping all limits and of
 /// success: expected improvement of one objective, its knowledge gradient where runs are noisy and nothing is
 /// limited, hypervolume improvement of several objectives. The third goes where the models expect the best, as
-/// does each of the last two. While no run keeps all limits, their probability alone counts. Candidates are
-/// random points of the box and of the neighbourhood of the best runs; doe::propose climbs from the best.
+/// does each of the last two. Where one objective of an exact simulator is all, the second of the three, and the first too
+/// once the best run is old, is chosen near that run (near_best.hpp). While no run keeps all limits, their probability
+/// alone counts. Candidates are random points of the box and of the neighbourhood of the best runs; doe::propose climbs
+/// from the best.
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -18,6 +20,7 @@
 #include <drawpoint/doe/propose.hpp>
 #include <drawpoint/kriging/acquisition_gradient.hpp>
 #include <drawpoint/kriging/acquisition_hypervolume.hpp>
+#include <drawpoint/kriging/detail/near_best.hpp>
 #include <drawpoint/kriging/detail/searched_models.hpp>
 #include <utility>
 #include <vector>
@@ -170,45 +173,6 @@ inline Eigen::MatrixXd neighbours(const SearchedModels& s, const std::vector<Eig
   return P;
 }
 
-/// Half the side of the region around the best run that every third run is chosen in, over the box: smaller the longer
-/// ago that run was.
-inline double region_around_best(const SearchedModels& s, Eigen::Index best) {
-  const auto age = static_cast<double>(s.X.rows() - 1 - best);
-  return std::max(0.01, 0.3 * std::pow(0.6, age / 6.0));
-}
-
-/// Whether x lies in that region; whole numbers may always go by one, categories anywhere.
-inline bool is_near(const doe::Problem& problem, const Eigen::VectorXd& best, double half, const Eigen::VectorXd& x) {
-  for (Eigen::Index k = 0; k < x.size(); ++k) {
-    const doe::Variable& v = problem.variables[static_cast<std::size_t>(k)];
-    if (v.kind == doe::VariableKind::categorical) continue;
-    double reach = half * (v.upper - v.lower);
-    if (v.kind == doe::VariableKind::integer) reach = std::max(1.0, reach);
-    if (std::abs(x[k] - best[k]) > reach * (1 + 1e-12)) return false;
-  }
-  return true;
-}
-
-/// `count` points of the region: count x d.
-inline Eigen::MatrixXd points_near(const doe::Problem& problem, const Eigen::VectorXd& best, double half,
-                                   Eigen::Index count, doe::Seed seed) {
-  doe::RandomStream random(seed);
-  Eigen::MatrixXd P(count, best.size());
-  for (Eigen::Index i = 0; i < count; ++i)
-    for (Eigen::Index k = 0; k < P.cols(); ++k) {
-      const doe::Variable& v = problem.variables[static_cast<std::size_t>(k)];
-      double reach = half * (v.upper - v.lower);
-      if (v.kind == doe::VariableKind::categorical)
-        P(i, k) = random.uniform() < 0.5 ? best[k] : v.lower + random.below(static_cast<int>(v.upper - v.lower) + 1);
-      else {
-        if (v.kind == doe::VariableKind::integer) reach = std::max(1.0, reach);
-        double x = std::clamp(best[k] + reach * (2 * random.uniform() - 1), v.lower, v.upper);
-        P(i, k) = v.kind == doe::VariableKind::integer ? std::round(x) : x;
-      }
-    }
-  return P;
-}
-
 /// What the next run is chosen by.
 struct NextRun {
   doe::Seed seed = 1;
@@ -225,6 +189,26 @@ inline std::optional<Eigen::VectorXd> point_of(const doe::Evaluations& taken, co
   return X.row(0).transpose();
 }
 
+/// Whether a run after the first design is chosen near the best one, which was made `age` runs ago.
+inline bool goes_near_best(const SearchedModels& s, std::int64_t after_first, Eigen::Index age) {
+  if (!s.exact || s.success || s.problem.responses.size() > 1) return false;
+  return after_first % 3 == 1 || age > 2 * s.X.cols();
+}
+
+/// The most improvement in the region of the best run; nothing where every point there has been run.
+inline std::optional<Eigen::VectorXd> point_near_best(const doe::Evaluations& taken, const SearchedModels& s,
+                                                      const Incumbents& best, Eigen::Index age,
+                                                      const NextRun& by) {
+  const NearBest region(s.problem.variables, s.X.row(best.runs.front()).transpose(),
+                        static_cast<double>(age));
+  doe::ProposeOptions options{.seed = by.seed, .candidates = 1};
+  options.beside = region.points(2000, doe::run_seed(by.seed, taken.rows.size(), 7));
+  options.allowed = [&](const Eigen::VectorXd& x) {
+    return region.contains(x) && (!by.allowed || by.allowed(x));
+  };
+  return point_of(taken, most_improvement(s, best, false), options);
+}
+
 /// The point of the next run; nothing where every point has been run. ended: the runs so far; pending: k x d.
 inline std::optional<Eigen::VectorXd> next_run(const doe::Evaluations& ended, const Eigen::MatrixXd& pending,
                                                const NextRun& by) {
@@ -237,18 +221,11 @@ inline std::optional<Eigen::VectorXd> next_run(const doe::Evaluations& ended, co
     return point_of(taken, doe::distance_to_runs(taken), options);
   const SearchedModels models = searched_models(ended, pending);
   const Incumbents best = incumbents_of(models);
-  options.beside = neighbours(models, best.runs, 1000, doe::run_seed(by.seed, taken.rows.size(), 7));
   const bool expect = by.after_first % 3 == 2 || by.left <= 2;
-  if (!expect && by.after_first % 3 == 1 && best.feasible && std::getenv("TR")) {
-    const auto pick = best.runs[static_cast<std::size_t>(by.after_first) % best.runs.size()];
-    const Eigen::VectorXd centre = models.X.row(pick).transpose();
-    const double half = region_around_best(models, pick);
-    options.candidates = 1;
-    options.beside = points_near(models.problem, centre, half, 2000, doe::run_seed(by.seed, taken.rows.size(), 7));
-    options.allowed = [&, user = by.allowed](const Eigen::VectorXd& x) { return is_near(models.problem, centre, half, x) && (!user || user(x)); };
-    if (auto x = point_of(taken, most_improvement(models, best, false), options)) return x;
-    options.allowed = by.allowed; options.candidates = 2000; options.beside = neighbours(models, best.runs, 1000, doe::run_seed(by.seed, taken.rows.size(), 7));
-  }
+  const Eigen::Index age = models.X.rows() - 1 - best.runs.front();
+  if (!expect && goes_near_best(models, by.after_first, age))
+    if (auto x = point_near_best(taken, models, best, age, by)) return x;
+  options.beside = neighbours(models, best.runs, 1000, doe::run_seed(by.seed, taken.rows.size(), 7));
   return point_of(taken, most_improvement(models, best, expect), options);
 }
 

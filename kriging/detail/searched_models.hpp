@@ -19,8 +19,6 @@
 #include <drawpoint/doe/evaluations.hpp>
 #include <drawpoint/kriging/acquisition_hypervolume.hpp>
 #include <drawpoint/kriging/append.hpp>
-#include <drawpoint/kriging/detail/box_shares.hpp>
-#include <drawpoint/kriging/detail/choice.hpp>
 #include <drawpoint/kriging/detail/sites.hpp>
 #include <drawpoint/kriging/fit.hpp>
 #include <drawpoint/kriging/moderated_noise.hpp>
@@ -101,25 +99,6 @@ inline bool take_logarithm(const Eigen::MatrixXd& X, Eigen::VectorXd& z, const F
   return true;
 }
 
-/// The model, or one that takes what is rough of the runs for noise where that predicts runs without themselves clearly
-/// better: through a response that is rough for its runs exact models swing, and a search by them goes to the corners.
-inline Model smooth_where_rough(const Eigen::MatrixXd& X, const Eigen::VectorXd& z, const FitOptions& exact,
-                                Model model) {
-  const double clearly = std::getenv("SM") ? std::atof(std::getenv("SM")) : 0.0;  // of the mean square
-  if (model.state().X.rows() == 0 || model.status() == Status::exact_trend) return model;
-  const std::vector<Eigen::Index> once = first_runs(sites_of(X));
-  FitOptions options = exact;
-  options.noise = Noise::nugget;
-  options.may_be_exact = false;
-  Model smooth = fit(rows_of(X, once), entries_of(z, once), options);
-  const auto error = [](const Model& m) {
-    const ModelState& s = m.state();
-    return squares_left_out(s.L, s.gls, s.X, shares_of_box(s.X, s.correlation.levels));
-  };
-  const bool rough = smooth.log_likelihood() > model.log_likelihood() + (std::getenv("LL") ? std::atof(std::getenv("LL")) : 0);
-  return rough && error(smooth) < clearly * error(model) ? smooth : model;
-}
-
 /// All objectives and limits with their models, and what runs tell of failures.
 struct SearchedModels {
   doe::Problem problem;  ///< the objectives and limits alone, on the scales of the models
@@ -182,7 +161,6 @@ inline SearchedModels searched_models(const doe::Evaluations& runs, const Eigen:
     Model model = fit(all.X, z, options);
     bool logarithm = options.noise_variance.size() == 0 && wants_logarithm(responses[j], z, alone);
     if (logarithm) logarithm = take_logarithm(all.X, z, options, model);
-    if (all.exact && std::getenv("SM")) model = smooth_where_rough(all.X, z, options, std::move(model));
     if (logarithm) on_scale.limit = std::log(on_scale.limit);  // NaN stays NaN
     all.Z.conservativeResize(z.size(), all.Z.cols() + 1);
     all.Z.rightCols(1) = all.exact ? z : fitted_values(model);
