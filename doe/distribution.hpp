@@ -69,8 +69,8 @@ inline Distribution normal(double mean, double deviation) {
           [=](double x) { return detail::normal_probability((x - mean) / deviation); }};
 }
 
-/// Of a value above 0 whose logarithm is normal: half of the values lie below `median`, 68 % within a factor
-/// of exp(log_deviation).
+/// The distribution of a value above 0 whose logarithm is normal: half of the values lie below `median`, 68 % within
+/// a factor of exp(log_deviation) of it.
 inline Distribution lognormal(double median, double log_deviation) {
   detail::check_positive("the median of a lognormal distribution", median);
   detail::check_positive("the deviation of the logarithm", log_deviation);
@@ -102,7 +102,7 @@ inline Distribution triangular(double lower, double mode, double upper) {
           }};
 }
 
-/// Of values that were measured, two or more: their quantiles, linear between neighbours. All must lie inside
+/// The distribution of two or more measured values: their quantiles, linear between neighbours. All must lie inside
 /// the variable's box.
 inline Distribution empirical(std::vector<double> values) {
   if (values.size() < 2)

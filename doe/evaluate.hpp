@@ -118,7 +118,7 @@ class RunBook {
   }
 
  private:
-  // Of the rows to run up to the first that is not done.
+  // Checks the outcomes of the rows to run, in their order, up to the first row that is not done.
   void look_at_first_values() {
     for (; looked_at_ < to_run_.size() && done_[to_run_[looked_at_]]; ++looked_at_)
       first_values_.take(table_.rows[to_run_[looked_at_]].outcome, "doe::evaluate");

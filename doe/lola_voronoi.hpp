@@ -159,7 +159,7 @@ class LolaVoronoi {
   }
 
   static constexpr Eigen::Index least_points = 1000;
-  /// Of ΣE with responses of range 1: below, E is the rounding of a plane.
+  /// The ΣE, with responses of range 1, up to which E is only round-off, as of a plane.
   static constexpr double round_off = 1e-10;
 
   LolaVoronoiOptions options_;

@@ -83,7 +83,7 @@ struct Trajectories {
   std::vector<Eigen::Index> moved;  ///< one per row; -1 for the first of a trajectory
 };
 
-/// Of how many levels, and which value has one of them.
+/// The number of levels of a variable, and the value of one of them in natural units.
 inline int level_count(const Variable& v, int levels) {
   return is_discrete(v) ? static_cast<int>(value_count(v)) : levels;
 }

@@ -41,7 +41,7 @@ namespace drawpoint::kriging {
 
 namespace detail {
 
-/// Of an objective: +1 to minimise, −1 to maximise.
+/// The sign of an objective's goal: +1 to minimise, −1 to maximise.
 inline double sign_of(const char* place, doe::Goal goal) {
   if (!doe::is_objective(goal))
     throw std::invalid_argument(
@@ -78,7 +78,7 @@ class SearchModel {
  public:
   explicit SearchModel(const S& model) : model_(searched(model)) {}
 
-  /// Of the latent function at the m x d points.
+  /// Mean and variance of the latent function at the rows of X: m x d.
   Prediction predict(const Eigen::MatrixXd& X) const {
     Prediction p = model_.predict(X);
     if (const Model* model = kriging_model(model_))
@@ -188,7 +188,7 @@ doe::Criterion expected_improvement(S model, doe::Goal goal, double best) {
   return detail::improvement(std::move(model), {best, sign, false});
 }
 
-/// Of a Kriging model, re-interpolated, on the best of its fitted values. Throws as above.
+/// Improvement on the best of the fitted values, by the re-interpolated model. Throws as above.
 template <Regression S>
 doe::Criterion expected_improvement(const S& model, doe::Goal goal) {
   return detail::reinterpolated_improvement(model, detail::sign_of("kriging::expected_improvement", goal),

@@ -143,7 +143,7 @@ inline double log_score(const PredictedRun& p, double y, const ResponseRange& ra
   return negative_log_density(p, y);
 }
 
-/// Of each run as predicted without it.
+/// The log_score() of each run as predicted without it.
 inline Eigen::VectorXd left_out_scores(const TransformedModel& model, const ResponseRange& range) {
   const Validation v = leave_one_out(model);
   Eigen::VectorXd scores(v.observed.size());
@@ -187,7 +187,7 @@ inline FitStanding standing_of(const std::string& name, const Eigen::VectorXd& s
   return standing;
 }
 
-/// Of the box of the model, for each of its runs; alike where it is a constant.
+/// The share of the model's box that each of its runs stands for; equal shares where the model is a constant.
 inline Eigen::VectorXd shares_of_runs(const TransformedModel& model) {
   const ModelState& s = model.model().state();
   return s.X.rows() == 0 ? equal_shares(model.runs()) : shares_of_box(s.X, s.correlation.levels);
@@ -231,7 +231,7 @@ inline Validation validate_on(const TransformedModel& model, const ComparedRuns&
   return validate(model, X, y, noise(rows_of(runs.X, in), runs.noise_of(in), X, runs.noise_of(out)));
 }
 
-/// Of each run, as predicted by the way fitted to the four fifths of the runs that it is not among.
+/// The log_score() of each run as predicted by the way fitted to the four fifths of the runs that it is not among.
 inline Eigen::VectorXd refitted_scores(const ComparedRuns& runs, const WayToFit& way) {
   Eigen::VectorXd scores(runs.y.size());
   const Eigen::Index n = runs.X.rows();

@@ -172,7 +172,7 @@ inline void multiply_matern(const CorrelationFunction& f, Index k, const Chunk& 
   }
 }
 
-/// Of power_exponential and Matérn's.
+/// out[i] = c(row first + i of Z, x) of power_exponential or Matérn, for at most chunk_rows rows.
 inline void correlate_chunk(const CorrelationFunction& f, const Rows& rows, double* out) {
   Chunk factor(rows.count), logarithm(rows.count);
   std::fill_n(factor.number, rows.count, 1.0);

@@ -163,7 +163,7 @@ class CountModel {
   Eigen::VectorXd quantile(const Eigen::MatrixXd& X, double p, double exposure = 1.0) const;
 
   Eigen::Index runs() const { return X_.rows(); }
-  /// Of f, on inputs scaled to [0, 1], d entries: how far a run tells of its surroundings.
+  /// The length scales of f on inputs scaled to [0, 1], d entries: how far a run informs about its surroundings.
   Eigen::VectorXd length_scales() const { return covariance_.length_scales(); }
   double deviation() const { return std::sqrt(covariance_.variance); }           ///< s of f
   double deviation_of_a_run() const { return std::sqrt(covariance_.of_a_run); }  ///< σ of g
@@ -176,9 +176,9 @@ class CountModel {
   friend CountModel fit_counts(const Eigen::MatrixXd& X, const Eigen::VectorXd& counts,
                                const CountOptions& options);
 
-  /// Of f.
+  /// Mean and variance of f at the rows of X.
   Prediction latent(const Eigen::MatrixXd& X) const;
-  /// Of the count of one more run at point i of f.
+  /// The distribution of the count of one more run at point i of f.
   detail::CountDistribution distribution(const Prediction& f, Eigen::Index i, double exposure) const {
     return {offset_ + std::log(exposure) + f.mean[i], f.variance[i] + covariance_.of_a_run};
   }

@@ -73,11 +73,11 @@ inline void check_validations(const std::vector<Validation>& responses) {
 
 }  // namespace detail
 
-/// Of the errors of k responses at the same runs, each left out or validated, one Validation per response in
-/// the same order of runs: k x k, symmetric, 1 on the diagonal, no negative eigenvalue. What is no more than
-/// chance is taken off, one share of all pairs: of two unrelated responses mostly all. None of fewer than three
-/// runs. Throws std::invalid_argument for
-/// unlike numbers of runs and for none.
+/// The correlation of the errors of k responses at the same runs, each left out or validated; one Validation per
+/// response, in the same order of runs. k x k, symmetric, 1 on the diagonal, no negative eigenvalue. Correlations are
+/// reduced by the share that chance would give, one share for all pairs: for two unrelated responses mostly to 0.
+/// With fewer than three runs it is the identity.
+/// Throws std::invalid_argument for unlike numbers of runs and for none.
 inline Eigen::MatrixXd error_correlation(const std::vector<Validation>& responses) {
   detail::check_validations(responses);
   const auto k = static_cast<Eigen::Index>(responses.size());

@@ -32,9 +32,9 @@ struct FidelityLevel {
   std::string name;
   Eigen::MatrixXd X;  ///< n x d, one run per row, natural units
   Eigen::VectorXd y;  ///< n
-  /// Of its Kriging model: above the cheapest level that of the difference. Noise belongs to the level. The
-  /// box is by default the range of the runs of all levels; above the cheapest level `trend` is constant,
-  /// linear or quadratic.
+  /// The options of its Kriging model, above the cheapest level that of the difference from ρ times the level below.
+  /// Noise is that of the level's own runs. The box is by default the range of the runs of all levels; above the
+  /// cheapest level `trend` is constant, linear or quadratic.
   FitOptions options = {};
 };
 

@@ -63,8 +63,8 @@ inline FitOptions with_known_noise(FitOptions options, const Eigen::VectorXd& no
   return options;
 }
 
-/// Of standard deviations, unit of y. X: n x d, natural units; noise_variance: n, from 0 on, unit of y
-/// squared; options: box, correlation and trend of the model, with Noise::nugget. Throws as fit.
+/// A model of the standard deviation of noise, unit of y. X: n x d, natural units; noise_variance: n, from 0 on, unit
+/// of y squared; options: box, correlation and trend of the model, with Noise::nugget. Throws as fit.
 inline TransformedModel fit_noise(const Eigen::MatrixXd& X, const Eigen::VectorXd& noise_variance,
                                   const FitOptions& options = {}) {
   detail::check_run_noise(noise_variance, X.rows(), "kriging::fit_noise: ");
@@ -80,8 +80,8 @@ inline Eigen::VectorXd noise_variance_at(const TransformedModel& noise, const Ei
   return variance;
 }
 
-/// Of runs with noise that is known, but for chance: the options with what a model makes of it. Throws
-/// std::invalid_argument for another noise than known, and as fit does for that.
+/// The options `known`, in which each run's noise variance, off by chance, becomes what a model of all expects there.
+/// Throws std::invalid_argument for another noise than known, and as fit does for known noise.
 inline FitOptions with_modelled_noise(const FitOptions& known, const Eigen::MatrixXd& X) {
   if (known.noise != Noise::known)
     throw std::invalid_argument("kriging::with_modelled_noise: noise is " +

@@ -326,7 +326,7 @@ inline void describe_window(const ModelState& s, const ErrorScan& scan, const Er
 
 }  // namespace detail
 
-/// Of a model of 20 runs or more; with fewer, or of a constant response, nothing is found. Throws
+/// Checks a model of 20 runs or more; with fewer, or a constant response, nothing is found. Throws
 /// std::invalid_argument for options out of range.
 inline Stationarity check_stationarity(const Model& model, const StationarityOptions& options = {}) {
   detail::check_stationarity_options(options);

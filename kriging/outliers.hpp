@@ -116,8 +116,8 @@ inline std::vector<Eigen::Index> without(std::vector<Eigen::Index> rows, Eigen::
 
 }  // namespace detail
 
-/// Of the runs X (n x d, natural units), y (n) that `model` was fitted to, in order of rows; `fitter(X, y)`
-/// is how. Throws std::invalid_argument for options out of range and another number of runs, and as the
+/// The outliers, in order of rows, among the runs X (n x d, natural units) and y (n) that `fitter(X, y)` fitted
+/// `model` to. Throws std::invalid_argument for options out of range and another number of runs, and as the
 /// fitter.
 template <class F>
 std::vector<Outlier> find_outliers(const TransformedModel& model, const Eigen::MatrixXd& X,

@@ -4,11 +4,11 @@
 
 /// Repeated runs as one run with a known noise, for Noise::known.
 ///
-/// Of the mᵢ runs at xᵢ: the mean ȳᵢ, and its variance. pooled: the noise is the same everywhere, so τᵢ² =
-/// s²/mᵢ with s² = Σᵢ Σⱼ (yᵢⱼ − ȳᵢ)²/Σᵢ (mᵢ − 1); needs one repeated point. own: each point has its own
-/// noise, τᵢ² = sᵢ²/mᵢ with sᵢ² = Σⱼ (yᵢⱼ − ȳᵢ)²/(mᵢ − 1), drawn towards those of the others as far as so few
-/// runs leave it open (moderated_noise.hpp); needs two runs at each point. Fitting means costs less than fitting
-/// all runs: the n³ is of the distinct points. Source: Ankenman, Nelson, Staum 2010, Operations Research 58(2), "Stochastic Kriging for Simulation Metamodeling".
+/// The mᵢ runs at xᵢ become one, their mean ȳᵢ, whose noise has the variance τᵢ². pooled: the noise is the same
+/// everywhere, so τᵢ² = s²/mᵢ with s² = Σᵢ Σⱼ (yᵢⱼ − ȳᵢ)²/Σᵢ (mᵢ − 1); needs one repeated point. own: each point has
+/// its own noise, τᵢ² = sᵢ²/mᵢ with sᵢ² = Σⱼ (yᵢⱼ − ȳᵢ)²/(mᵢ − 1), drawn towards the others' as far as so few runs
+/// leave it open (moderated_noise.hpp); needs two runs at each point. Cost of a fit: n³ of the distinct points.
+/// Source: Ankenman, Nelson, Staum 2010, Operations Research 58(2), "Stochastic Kriging for Simulation Metamodeling".
 
 #include <Eigen/Core>
 #include <drawpoint/kriging/detail/sites.hpp>

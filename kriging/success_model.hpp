@@ -52,7 +52,7 @@ class SuccessModel {
 
   Eigen::Index runs() const { return X_.rows(); }
   Eigen::Index failures() const { return failures_; }
-  /// Of f, on inputs scaled to [0, 1], d entries: how far a run tells of its surroundings.
+  /// The length scales of f on inputs scaled to [0, 1], d entries: how far a run informs about its surroundings.
   Eigen::VectorXd length_scales() const { return covariance_.length_scales(); }
   /// s of f: with 0.3 all places are about alike, with 3 most are either safe or lost.
   double deviation() const { return std::sqrt(covariance_.variance); }
@@ -118,7 +118,7 @@ inline std::vector<Index> rows_of_both_kinds(const std::vector<bool>& succeeded,
   return rows;
 }
 
-/// Of each run by the share of its kind among the others, with one more of both kinds.
+/// The mean logarithm of each run's probability: the share of its kind among the others with one more of both kinds.
 inline double share_score(Index failures, Index runs) {
   const auto of = [&](Index kind) {
     return kind == 0 ? 0.0
@@ -154,7 +154,7 @@ inline SuccessModel fit_success(const Eigen::MatrixXd& X, const std::vector<bool
   return model;
 }
 
-/// Of all rows, in the problem's box. Throws as above.
+/// Fits the success of all rows, in the problem's box. Throws as above.
 inline SuccessModel fit_success(const doe::Evaluations& runs) {
   const auto d = static_cast<Eigen::Index>(runs.problem.variables.size());
   Eigen::MatrixXd X(static_cast<Eigen::Index>(runs.rows.size()), d);

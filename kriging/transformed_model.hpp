@@ -160,7 +160,7 @@ class TransformedModel {
     return detail::normal_quantile(p);
   }
 
-  // Of z, without the round-off of an interpolating model.
+  // The prediction of z, without the round-off of an interpolating model.
   Prediction scaled(const Eigen::MatrixXd& X, Target target) const {
     Prediction p = model_.predict(X, target);
     if (round_off_ > 0)

@@ -39,7 +39,7 @@ class CrowdingLines {
     }
   }
 
-  /// Of each of the n rows; 0 for those that have left.
+  /// The crowding distance of each of the n rows; 0 for copies and for those that have left.
   Eigen::VectorXd distances() const {
     Eigen::VectorXd distance = Eigen::VectorXd::Zero(points_.Y.rows());
     const std::vector<int> distinct = distinct_rows();

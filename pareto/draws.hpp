@@ -32,7 +32,7 @@
 
 namespace drawpoint::pareto {
 
-/// Of all responses of the problem at n points: n x r, natural units.
+/// Predicted means and standard deviations of all responses of the problem at n points: n x r, natural units.
 struct PredictedResponses {
   Eigen::MatrixXd mean, deviation;
 };

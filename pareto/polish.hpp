@@ -43,7 +43,7 @@ struct PolishOptions {
   double augmentation = 1e-4;  ///< ρ >= 0; above 0 no result is only weakly optimal
   double tolerance = 1e-9;     ///< of Ipopt's optimality error in scaled units, above 0
   int iterations = 100;        ///< most iterations per point, 1 or more
-  /// Of the hypervolumes: m, natural units; none: worst of the front + a tenth.
+  /// The reference point of the hypervolumes: m, natural units; none: worst of the front + a tenth of its range.
   std::optional<Eigen::VectorXd> reference{};
 };
 
@@ -85,7 +85,7 @@ inline std::string_view to_string(PolishStatus status) {
 
 struct Polished {
   Front front;  ///< row i is polished from row i of the given front; rows may dominate each other
-  /// Of the first-order conditions of the real variables, 0 to 1; NaN where f failed, or where none is real.
+  /// The residuals of the first-order conditions in the real variables, 0 to 1; NaN where f failed or none is real.
   Eigen::VectorXd residual_before, residual;
   Eigen::MatrixXd weights;            ///< n x m, λ of the conditions at the polished points
   std::vector<PolishedPoint> points;  ///< n: what became of each

@@ -29,7 +29,7 @@ struct Finding {
   std::string grounds;  ///< the number that decided and its threshold, or why nothing could
 };
 
-/// Of the runs that succeeded, training and validation apart. Variables and responses in the problem's order.
+/// Results of the successful runs, training and validation apart. Variables and responses are in the problem's order.
 struct StudyResults {
   doe::Problem problem;
   Eigen::MatrixXd X, Y;                     ///< training: n x d and n x r, natural units

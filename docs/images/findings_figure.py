@@ -1,10 +1,13 @@
 # SPDX-FileCopyrightText: Drawpoint contributors
 # SPDX-License-Identifier: Apache-2.0
-"""Draws the figure of docs/explanation/findings.md: what the models of two studies expect over fill and height of the lift.
+"""Draws the figures of docs/explanation/findings.md: what the models of two studies expect over fill and height of the
+lift (figures 16 to 18 of the source), and the predicted front of one (22 and 23).
 
     findings_figure.py grid > grid.csv
     lhd_loading predict --out STUDY --points grid.csv --file SURFACE.csv
     findings_figure.py SURFACE_OF_THE_SOURCE.csv SURFACE.csv
+    lhd_loading export --what front --out STUDY --file FRONT.csv
+    findings_figure.py front FRONT.csv
 """
 
 import csv
@@ -15,6 +18,7 @@ import numpy as np
 
 IMAGES = pathlib.Path(__file__).parent
 sys.path.insert(0, str(IMAGES.parent / "cookbook"))
+from matplotlib.colors import ListedColormap  # noqa: E402
 from plot_style import GREY, style  # noqa: E402
 
 ALPHA, BETA = np.linspace(0.2, 2, 37), np.linspace(0, 1, 21)
@@ -55,7 +59,30 @@ def draw(files):
     figure.savefig(IMAGES / "findings.svg", metadata={"Date": None})
 
 
+def draw_front(file):
+    plt = style("front")
+    with open(file, newline="") as stream:
+        head, *rows = csv.reader(stream)
+    column = dict(zip((name.split(" [")[0] for name in head), np.array(rows, float).T))
+    panels = [("production", "joint_damage", "rock_spill"), ("production", "rock_spill", "joint_damage"),
+              ("joint_damage", "rock_spill", "production"), ("production", "joint_damage", "alpha"),
+              ("production", "joint_damage", "beta"), ("production", "joint_damage", "kappa")]
+    figure, axes = plt.subplots(2, 3, figsize=(9.4, 5.2))
+    seen_on_black = ListedColormap(plt.get_cmap("plasma")(np.linspace(0.2, 1, 64)))
+    for panel, (x, y, colour) in zip(axes.flat, panels):
+        dots = panel.scatter(column[x], column[y], c=column[colour], cmap=seen_on_black, s=9, linewidths=0)
+        bar = figure.colorbar(dots, ax=panel)
+        bar.set_label(RESPONSES.get(colour, colour), fontsize=8, color=GREY)
+        bar.outline.set_visible(False)
+        panel.set_xlabel(RESPONSES[x], fontsize=8)
+        panel.set_ylabel(RESPONSES[y], fontsize=8)
+    figure.tight_layout(w_pad=2)
+    figure.savefig(IMAGES / "findings_front.svg", metadata={"Date": None})
+
+
 if sys.argv[1:] == ["grid"]:
     write_grid()
+elif sys.argv[1:2] == ["front"]:
+    draw_front(sys.argv[2])
 else:
     draw(sys.argv[1:3])

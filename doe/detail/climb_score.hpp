@@ -59,7 +59,7 @@ class ScoreClimb {
     moved_ = Eigen::VectorXd::Zero(at_.u.size());
   }
 
-  /// Of the free coordinates; 0 where a neighbour has no score.
+  /// The score's gradient; 0 where a coordinate is fixed, pushed out of the box or has a neighbour without a score.
   Eigen::VectorXd slopes() const {
     const auto n = static_cast<Eigen::Index>(free_.size());
     Eigen::MatrixXd U(2 * n, at_.u.size());

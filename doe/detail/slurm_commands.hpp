@@ -95,7 +95,7 @@ struct TaskState {
   std::string state, reason;
 };
 
-/// Of each task that Slurm still knows, by array and index; it forgets tasks some minutes after their end.
+/// The state of each task that Slurm still knows, by array and index; it forgets tasks some minutes after their end.
 using TaskStates = std::map<std::pair<std::string, int>, TaskState>;
 
 inline TaskStates task_states(const std::vector<std::string>& arrays) {
@@ -129,7 +129,7 @@ inline bool is_cancelled(const std::string& name) {
   }
 }
 
-/// Of a task's state: that nothing of it runs or will.
+/// Whether a task in this state neither runs nor will run.
 inline bool is_over(const std::string& state) {
   static const std::set<std::string> over = {"COMPLETED", "FAILED",  "NODE_FAIL", "BOOT_FAIL",    "PREEMPTED",
                                              "CANCELLED", "TIMEOUT", "DEADLINE",  "OUT_OF_MEMORY"};

@@ -152,7 +152,7 @@ constexpr SobolDirections directions_of(const SobolDimension& dimension) {
   return v;
 }
 
-/// Of dimension j, 0-based; the first is van der Corput's sequence.
+/// The direction numbers of dimension j, 0-based; the first is van der Corput's sequence.
 inline SobolDirections sobol_directions(int j) {
   if (j > 0) return directions_of(sobol_dimension(j));
   SobolDirections v{};

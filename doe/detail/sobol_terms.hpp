@@ -76,8 +76,8 @@ class SobolTerms {
   }
 
  private:
-  /// Of inputs j and k: ½(f(D_j) f(C_k) + f(D_k) f(C_j)) − f(A) f(B), whose mean is the variance of
-  /// E[f | x_j, x_k].
+  /// Sets the product of each two inputs j and k, ½(f(D_j) f(C_k) + f(D_k) f(C_j)) − f(A) f(B), whose mean is the
+  /// variance of E[f | x_j, x_k].
   void set_products(const Eigen::MatrixXd& Y) {
     const Eigen::ArrayXd product = Y.col(0).array() * Y.col(1).array();
     for (Eigen::Index j = 0, at = 4 + 7 * d_; j < d_; ++j)

@@ -37,7 +37,7 @@ namespace drawpoint::engine {
 
 class ThreadPool;
 
-/// Of the last find().
+/// Times and counts of the last find().
 struct FinderTimes {
   double broad = 0, narrow = 0;  ///< [s]
   int pairs = 0;                 ///< pairs with overlapping boxes

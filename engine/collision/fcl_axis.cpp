@@ -33,7 +33,7 @@ std::shared_ptr<const FclShape> fcl_shape_of(const CollisionHull& hull) {
   return std::make_shared<const FclShape>(vertices, hull.face_count(), faces);
 }
 
-// Of the two shapes, in the frame of the first.
+// The two shapes of a pair, and the pose of the second in the frame of the first.
 struct FclPair {
   const FclShape& a;
   const FclShape& b;
@@ -69,7 +69,7 @@ std::optional<AxisClaim> collision_claim(const FclPair& pair, const Vector3d& gu
   return AxisClaim{contact.normal, -std::abs(contact.penetration_depth), false};
 }
 
-// Of last time in A's frame, or the line of centres.
+// Where to look for the axis first, in A's frame: along last time's normal, else along the line of centres.
 Vector3d guess_of(const HullPair& pair, const ConvexContact& last) {
   if (last.normal.isZero()) return pair.X_AB * pair.b.centre - pair.a.centre;
   return last.count > 0 && last.normal_of_b ? Vector3d(pair.X_AB.linear() * last.normal) : last.normal;

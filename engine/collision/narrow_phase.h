@@ -32,7 +32,7 @@ class NarrowPhase {
   /// Updates the pairs and replaces `manifolds` by their contacts, in the order of the pairs. Returns how
   /// many pairs were computed.
   int run(const Items& items, PairCache& pairs, std::vector<Manifold>& manifolds, const ThreadPool& pool);
-  /// Of the last run: answers of FCL that were not used.
+  /// How many answers of FCL were not used in the last run().
   int refused() const;
 
  private:

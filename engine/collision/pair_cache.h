@@ -16,7 +16,7 @@
 /// Most pairs are only near, and have no contact. Memory is reused, not returned.
 namespace drawpoint::engine::detail {
 
-/// Of shapes apart: a plane n·x = support on A that B was clear of, in A's frame, and the features that gave it.
+/// The plane n·x = support on A, in A's frame, that B was clear of when last apart, and the last axis's features.
 struct NearState {
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   double support = 0;

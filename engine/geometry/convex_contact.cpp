@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 
 constexpr std::uint32_t edge_group = 0x7f, nearest_group = 0xff;
 
-// Of the faces around a vertex, the one that faces the direction n most (its normal along -n).
+// The face around a vertex whose normal points most against the direction n.
 int facing(const CollisionHull& hull, int vertex, const Vector3d& n) {
   int best = -1;
   double least = 2;
@@ -25,7 +25,7 @@ int facing(const CollisionHull& hull, int vertex, const Vector3d& n) {
   return best;
 }
 
-// Of the two faces at an edge, the one that faces the direction n more.
+// The one of the two faces at an edge whose normal points more against the direction n.
 int facing(const CollisionHull& hull, const HullEdge& edge, const Vector3d& n) {
   return hull.normals[edge.left].dot(n) < hull.normals[edge.right].dot(n) ? edge.left : edge.right;
 }
@@ -34,7 +34,7 @@ void add_anchors(const Vector3d& on_a, const Vector3d& on_b, std::uint32_t featu
   contact.points[static_cast<std::size_t>(contact.count++)] = {on_a, on_b, feature};
 }
 
-// Of the points, before the normal goes to its owner.
+// The least gap of a contact's points, while the normal is still in A's frame.
 double least_gap(const HullPair& pair, const ConvexContact& contact) {
   double least = std::numeric_limits<double>::infinity();
   for (int k = 0; k < contact.count; ++k) {

@@ -65,7 +65,7 @@ class AxisSearch {
   /// The axis; the search stops early at any axis with more separation than the margin.
   Axis find(const HullPair& pair, const AxisQuery& query);
 
-  /// Of these features; kind none where two edges form no face of the Minkowski difference.
+  /// The axis that these features give; its kind is none where two edges form no face of the Minkowski difference.
   Axis axis_of(const HullPair& pair, const Feature& feature) const;
 
   /// The nearest points of two shapes that an axis separates by less than the margin, when an edge or a

@@ -23,7 +23,7 @@ struct Area {
   double x0, x1, y0, y1;  ///< [m]
 };
 
-/// Of places, for rocks of 0.3 m [m]; a sixth of the smallest rock.
+/// Default spacing of places, for rocks of 0.3 m [m]; a sixth of the smallest rock.
 inline constexpr double place_spacing = 0.05;
 
 /// Surface height over each place of the area [m], 0 where there is no rock.
@@ -36,7 +36,7 @@ double mean_height(const engine::World& world, const Area& area, double spacing 
 /// Angle [deg] of a heap with these heights, from one `size` above the floor to where it is one `size` in
 /// radius; NaN for a heap of fewer than three sections, which lie 0.1 `size` apart.
 double angle_of_cone(const std::vector<double>& heights, double spacing, double size);
-/// Of a heap that was poured on the floor anywhere.
+/// Angle [deg] of a heap that was poured on the floor, wherever it lies; NaN as above.
 double angle_of_cone(const engine::World& world, double size, double spacing = place_spacing);
 /// Angle [deg] of a bank that runs down along x, from half a rock above z = 0 to one rock below `crest` [m];
 /// NaN for fewer than three sections.

@@ -19,8 +19,8 @@ namespace drawpoint::engine::granular {
 /// Built on the first call, the same objects ever after.
 const std::array<engine::ConvexPolyhedron, 6>& rock_shapes();
 
-/// Of the coefficients that make the shapes: other shapes have another one. Files that name a shape by its
-/// number keep it.
+/// Checksum of the coefficients that make the shapes: other shapes have another one. Files that name a shape by its
+/// number store it.
 std::uint64_t rock_shapes_checksum();
 
 }  // namespace drawpoint::engine::granular

@@ -14,7 +14,7 @@ struct Chord {
   double low = 0, high = 0;
 };
 
-/// Of the vertical line over (x, y); nothing where it misses the rock. A rock's shape is a polyhedron.
+/// Chord of a rock, whose shape is a polyhedron, along the vertical line over (x, y); empty where that misses it.
 std::optional<Chord> chord(const engine::Rock& rock, const Eigen::Vector2d& place);
 
 }  // namespace drawpoint::engine::granular

@@ -16,7 +16,7 @@ constexpr double own_mass = 4800;  // [kg]
 /// Drawn larger about the foot of the back. Of size 1 it is the point itself, to the bit.
 Vector2d drawn(const Vector2d& point, double size) { return point + (size - 1) * (point - foot_of_back); }
 
-/// Of the floor, which lies inside the profile.
+/// Section area of the floor plate, which lies inside the profile [m²].
 double floor_section(const std::vector<Vector2d>& profile) {
   return (profile.front() - profile.back()).norm() * (plate_thickness + plate_thickness / 4) / 2;
 }

@@ -22,7 +22,7 @@ struct BucketOptions {
   double size = 1;     ///< lengths of the profile over those of the machine's own bucket [1]
 };
 
-/// Of its plates [m]. The floor's goes down to a quarter of it at the cutting edge.
+/// Thickness of the bucket's plates [m]. That of the floor tapers to a quarter of it at the cutting edge.
 inline constexpr double plate_thickness = 0.08;
 
 /// The bucket of this width [m] that holds so much, heaped 2:1 [m³].
@@ -33,7 +33,7 @@ BucketOptions bucket_of(double width, double heaped_volume);
 std::vector<Eigen::Vector2d> bucket_profile(const BucketOptions& bucket);
 /// A profile with a 2:1 heap on the plane between its first point, the cutting edge, and its second, the lip.
 std::vector<Eigen::Vector2d> heaped(const std::vector<Eigen::Vector2d>& profile);
-/// Of a profile, counter-clockwise [m²].
+/// Area inside a profile whose points go counter-clockwise [m²].
 double area(const std::vector<Eigen::Vector2d>& profile);
 
 double clear_width(const BucketOptions& bucket);    ///< between its walls [m]

@@ -134,7 +134,7 @@ Eigen::VectorXd Machine::Simbody::beside_flow(const engine::SuperBodySolution& s
   return solution.mean_velocity - super.velocity_before - share * flow_change;
 }
 
-// Of motors and stops on the joints, means over the step.
+// Generalised forces of motors and stops on the joints, means over the step.
 SimTK::Vector Machine::Simbody::row_forces(const std::vector<double>& row_impulses) const {
   const MachineSpec& spec = tree.spec;
   const std::size_t n_motors = spec.motors.size();

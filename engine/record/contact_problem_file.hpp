@@ -43,7 +43,7 @@ void export_contact_problem(const std::filesystem::path& path, const engine::Con
                             const std::string& note = {});
 RecordedProblem import_contact_problem(const std::filesystem::path& path);
 
-/// Of all that is in a file but the note: equal problems have equal ones, whatever version of the format they
+/// Hash of all that is in a file but the note: equal problems have equal hashes, whatever version of the format they
 /// come from. Not for security.
 std::uint64_t problem_hash(const engine::ContactProblem& problem);
 

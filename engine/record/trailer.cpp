@@ -19,7 +19,7 @@ struct Trailer {
 };
 static_assert(sizeof(Trailer) == 24);
 
-// Of `count` bytes of a stream, or what there is.
+// The trailer for the next `count` bytes of a stream, or for as many as there are.
 Trailer trailer_of(std::istream& in, std::uint64_t count) {
   Trailer trailer;
   Checksum sum;

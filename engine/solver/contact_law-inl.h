@@ -32,7 +32,7 @@ struct TangentInverse {
   T xx, xy, yy, rho;
 };
 
-/// Of W_tt = (a b; b c).
+/// The inverse of W_tt = (a b; b c), 1/ρ times the identity where that is singular, and 1/ρ.
 template <class T>
 [[gnu::always_inline]] inline TangentInverse<T> invert_tangents(const T& a, const T& b, const T& c) {
   const T half = number<T>(0.5), difference = half * (a - c);

@@ -23,7 +23,7 @@ namespace drawpoint::engine::detail {
 
 class DirectSolution {
  public:
-  /// Of bodies and blocks without a machine, which must outlive it; `fastest`: see law::normal_step.
+  /// Takes a problem without a machine, whose bodies and blocks must outlive it; `fastest`: see law::normal_step.
   DirectSolution(std::vector<SolverBody>& bodies, std::vector<PointBlock>& points,
                  std::vector<PairBlock>& pairs, double fastest);
 

@@ -16,7 +16,7 @@ struct Islands {
   int count = 0;
 };
 
-/// Of `pairs` of the problem's bodies and its machine, which is one body.
+/// The islands that `pairs` form through the problem's moving bodies and its machine, which counts as one body.
 Islands find_islands(const ContactProblem& problem, const std::vector<ContactPair>& pairs);
 
 }  // namespace drawpoint::engine::detail

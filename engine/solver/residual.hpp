@@ -27,7 +27,7 @@ struct Residual {
   double complementarity = 0;  ///< of the normals, 0 to 1
   double cone = 0;             ///< of friction
   double moments = 0;          ///< of rolling and spinning resistance
-  /// Of the machine's own rows, relative to their impulses, both in the norm of w.
+  /// Residual of the machine's own rows relative to their impulses, both in the norm of w.
   double rows = 0;
 
   double contacts() const { return complementarity + cone + moments; }

@@ -10,7 +10,7 @@ namespace drawpoint::engine {
 struct SolverReport {
   int iterations = 0;      ///< over all pairs, in the whole step; 1 where everything stands
   double last_change = 0;  ///< Σ|Δλ| of the last iteration over Σ λ_n (0 when there is no load)
-  /// Of the points in the last substep, relative to Σ λ_n (0 when there is no load): see residual.hpp.
+  /// Residuals of the points' law in the last substep, relative to the load (residual.hpp); 0 where there is none.
   double complementarity = 0, cone = 0;
   SuperBodySolution machine;
 };

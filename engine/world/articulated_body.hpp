@@ -17,7 +17,7 @@ namespace drawpoint::engine {
 struct PrescribedMotion {
   RigidMotion rigid;
   Eigen::Vector3d angular_acceleration = Eigen::Vector3d::Zero();  ///< [rad/s²]
-  /// Of its point at `position`, at the start [m/s²].
+  /// Acceleration of the body's point at `position`, at the start of the step [m/s²].
   Eigen::Vector3d acceleration_at(const Eigen::Vector3d& position) const {
     const Eigen::Vector3d arm = position - rigid.origin, &w = rigid.angular_velocity;
     return rigid.acceleration + angular_acceleration.cross(arm) + w.cross(w.cross(arm));

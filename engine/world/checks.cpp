@@ -32,7 +32,7 @@ void check(const Material& m, const std::string& name) {
   check_range(name + "restitution", m.restitution, {0, 1, "[1]"});
 }
 
-// Of a homogeneous solid of this shape; a cylinder is centred by its definition.
+// Refuses a polyhedron whose centre of mass, its density uniform, is not at its origin; a cylinder is always centred.
 void check_centred(const Shape& shape) {
   constexpr double allowed = 1e-6;  // of the size: the hull's own tolerance on its vertices, with a margin
   const auto* hull = std::get_if<ConvexPolyhedron>(&shape);

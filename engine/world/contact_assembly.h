@@ -31,7 +31,7 @@ class ContactAssembly {
   void keep_impulses();
   /// What a machine that contacts do not move feels in the solved problem.
   SuperBodySolution felt_by_prescribed() const;
-  /// Of a rock in anything, at the start of the step [m].
+  /// Deepest overlap of a rock with anything, at the start of the step [m].
   double deepest_overlap() const { return joining_.deepest_overlap(); }
 
   ContactProblem& problem() { return problem_; }

@@ -24,7 +24,7 @@ namespace drawpoint::engine::detail {
 
 class ExtraReach {
  public:
-  /// Of the next rock, in the order of their numbers.
+  /// Adds the next rock, in the order of their numbers.
   void add(const Shape& shape);
   /// `radius`: of the part's surface about its origin [m].
   void add_part(int part, const Shape& shape, double radius);

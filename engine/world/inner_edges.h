@@ -23,7 +23,7 @@ namespace drawpoint::engine::detail {
 
 class InnerEdges {
  public:
-  /// Of `joining`, which has results for this many manifolds, the points on inner edges.
+  /// Leaves the points on inner edges out of `joining`, which has results for this many manifolds.
   void leave_out(const Scene& scene, int manifolds, JoiningPoints& joining);
 
  private:

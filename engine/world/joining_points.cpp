@@ -29,7 +29,7 @@ unsigned points_that(const Manifold& m, const Joins& joins) {
   return points;
 }
 
-// Of the smaller shape of a pair, across; fixed surfaces have any size.
+// Diameter of the smaller shape of a pair, by the radius about its body's origin; fixed surfaces are never smaller.
 double size_of(const Surface& a, const Surface& b) {
   if (a.owner == Owner::fixed) return 2 * b.radius;
   if (b.owner == Owner::fixed) return 2 * a.radius;

@@ -31,13 +31,13 @@ class JoiningPoints {
     const FirstTouch* touch = this->touch(k);
     return touch ? touch->manifold : (*manifolds_)[static_cast<std::size_t>(k)];
   }
-  /// Of a pair that was swept; else nullptr.
+  /// What the sweep of manifold k's pair gave; nullptr where it was not swept.
   const FirstTouch* touch(int k) const {
     const int place = touch_[static_cast<std::size_t>(k)];
     return place < 0 ? nullptr
                      : &touches_[static_cast<std::size_t>(k / block)][static_cast<std::size_t>(place)];
   }
-  /// Of a rock in anything, at the start of the step [m].
+  /// Deepest overlap of a rock with anything, at the start of the step [m].
   double deepest_overlap() const;
 
  private:

@@ -31,7 +31,7 @@ class KinematicBody final : public ArticulatedBody {
   const Eigen::Isometry3d& pose() const { return pose_; }  ///< X_WB
   const Eigen::Vector3d& velocity() const { return velocity_; }
   const Eigen::Vector3d& angular_velocity() const { return angular_velocity_; }
-  /// Of all contacts on it, about its origin, mean over the last step.
+  /// Force and moment of all contacts on the body, about its origin, mean over the last step.
   const Wrench& contact_wrench() const { return wrench_; }
   double work() const { return work_; }  ///< that it has done on what it touches [J]
 

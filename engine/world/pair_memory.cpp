@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-// Of a pair's normal load, and so of the moment that it allows, what the next step starts from.
+// Share of a pair's normal load that the next step starts from, and so of its moment, which that load bounds.
 double kept_share(const ContactProblem& problem, const ContactPair& pair) {
   double load = 0, impacts = 0;
   for (int k = pair.first; k < pair.first + pair.count; ++k) {

@@ -62,7 +62,7 @@ class PairMemory {
   void begin_step(const std::vector<int>& slots, int most);
   void store(const ContactProblem& problem, int k);
 
-  /// Of pair k of the problem stored last.
+  /// The slot of pair k of the problem stored last.
   int slot(int k) const { return slots_[static_cast<std::size_t>(k)]; }
   const RememberedPair& pair(int slot) const { return pairs_[static_cast<std::size_t>(slot)]; }
 

@@ -175,7 +175,7 @@ SurfaceOwner Scene::owner(int collider) const {
   return owner.owner == Owner::fixed ? SurfaceOwner{Owner::fixed, collider} : owner;
 }
 
-// Of a part without what its motors do in the step.
+// A part that contacts move is taken to keep its velocity at the start of the step, whatever its motors do.
 RigidMotion Scene::motion_of(const Surface& surface) const {
   if (surface.owner == Owner::part) {
     if (prescribed_) return prescribed_->rigid;

@@ -71,10 +71,10 @@ class Scene {
   /// Where the origin of the surface's body is; of a machine, at the start of the last step.
   Eigen::Vector3d origin_of(const Surface& surface) const;
   RigidMotion motion_of(const Surface& surface) const;
-  /// Of the point of a part that is at `position`, in a step of h, by outer and inertia forces or as
-  /// prescribed [m/s²].
+  /// Acceleration of the point of a part that is at `position`, in a step of h [s]: that by outer and inertia forces,
+  /// or the prescribed one [m/s²].
   Eigen::Vector3d part_acceleration(int part, const Eigen::Vector3d& position, double h) const;
-  /// Of the machine in this step, if contacts do not move it.
+  /// The machine's prescribed motion in this step; empty where contacts move it or there is none.
   const std::optional<PrescribedMotion>& prescribed() const { return prescribed_; }
 
   /// Beyond what velocities say, in this step [m].

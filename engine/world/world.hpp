@@ -63,7 +63,7 @@ class World {
 
   /// What all bodies put on each other in the last step; in no order that says anything.
   std::vector<PairForce> pair_forces() const;
-  /// Of all contacts on the rock about its centre, and on the machine's part about its origin: mean over the last step.
+  /// Contact force and moment on a rock about its centre, on a machine part about its origin: means of the last step.
   Wrench rock_wrench(int rock) const;
   Wrench part_wrench(int part) const;
   /// The first surface within `most` [m] on the ray, whose direction must be a unit vector; shapes that the origin is in are

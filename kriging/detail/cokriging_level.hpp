@@ -46,7 +46,7 @@ struct LevelView {
   Eigen::MatrixXd Q, V, W;  ///< m x n, m x q, m x parameters
 };
 
-/// Of the levels from the cheapest on.
+/// One view per level, all of the same points, from the cheapest level on.
 using LevelViews = std::vector<LevelView>;
 
 struct CokrigingLevel {
@@ -172,7 +172,7 @@ inline Eigen::MatrixXd deviations_by_parameters(const CokrigingLevel& level, con
   return W;
 }
 
-/// Of levels[t] at the rows of X: m x d, natural units; `views` are those of the t levels below.
+/// The view at levels[t] of the rows of X: m x d, natural units; `views` are those at the t levels below.
 inline LevelView view_of(const CokrigingLevels& levels, std::size_t t, const Eigen::MatrixXd& X,
                          const LevelViews& views) {
   const CokrigingLevel& level = levels[t];
@@ -195,7 +195,7 @@ inline LevelView view_of(const CokrigingLevels& levels, std::size_t t, const Eig
   return v;
 }
 
-/// Of the first `count` levels at the rows of X.
+/// The views at the first `count` levels of the rows of X.
 inline LevelViews views_of(const CokrigingLevels& levels, std::size_t count, const Eigen::MatrixXd& X) {
   LevelViews views;
   for (std::size_t t = 0; t < count; ++t) views.push_back(view_of(levels, t, X, views));

@@ -84,7 +84,7 @@ class CokrigingLikelihood {
     return g;
   }
 
-  /// Of the last p with a finite value.
+  /// The least-squares estimates at the last p with a finite value; variance() and nugget() are those of the last p.
   const LeastSquares& estimates() const { return gls_; }
   double variance() const { return variance_; }
   double nugget() const { return nugget_; }

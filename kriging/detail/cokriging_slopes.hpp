@@ -104,7 +104,7 @@ inline Eigen::MatrixXd deviation_slopes(const CokrigingLevel& level, const Predi
   return W;
 }
 
-/// Of levels[t] at the point whose views, that of levels[t] included, are in `at`.
+/// The slopes of the view at levels[t] of the point x; `at`: its views up to levels[t], its slopes below that.
 inline LevelSlopes slopes_of(const CokrigingLevels& levels, std::size_t t, const Eigen::VectorXd& x,
                              const PointBelow& at) {
   const CokrigingLevel& level = levels[t];
@@ -135,7 +135,7 @@ inline LevelSlopes slopes_of(const CokrigingLevels& levels, std::size_t t, const
   return J;
 }
 
-/// Of the mean and the variance after all levels at one point x of d entries.
+/// The gradients of the mean and the variance after all levels at one point x of d entries.
 inline PredictionGradient cokriging_gradient(const CokrigingLevels& levels, const Eigen::VectorXd& x) {
   LevelViews views;
   std::vector<LevelSlopes> slopes;

@@ -74,7 +74,7 @@ inline double slope_in_place(const CorrelationFunction& f, Index k, double step)
   return -sign * rate * u * (1.0 + u) / (3.0 + 3.0 * u + u * u);
 }
 
-/// Of a sum: what stands of wₖcₖ in rows against a point.
+/// The term wₖcₖ of a sum of correlations, for rows against a point, and its derivatives.
 struct Summand {
   const CorrelationFunction& f;
   Index k;

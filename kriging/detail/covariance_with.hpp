@@ -36,7 +36,7 @@ class CovarianceWith {
   /// X: m x d, natural units. Gives m x p, unit of y squared.
   Eigen::MatrixXd operator()(const Eigen::MatrixXd& X) const {
     const ModelState& s = model_->state();
-    // Of a constant, points tell nothing of each other.
+    // The model is a constant: no point says anything about another.
     if (s.X.rows() == 0) return Eigen::MatrixXd::Zero(X.rows(), scaled_.rows());
     const Points at = points(X);
     const Eigen::MatrixXd V = trend_part(at), W = parameter_part(at);

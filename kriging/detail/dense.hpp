@@ -111,7 +111,7 @@ inline Eigen::VectorXd affine(const Eigen::VectorXd& x, double factor, double sh
   return z;
 }
 
-/// Of one entry or more.
+/// These three need a vector of one entry or more.
 inline double largest_entry(const Eigen::VectorXd& x) { return *std::max_element(x.begin(), x.end()); }
 inline double smallest_entry(const Eigen::VectorXd& x) { return *std::min_element(x.begin(), x.end()); }
 inline double mean_of(const Eigen::VectorXd& x) {

@@ -107,7 +107,7 @@ inline CokrigingProblem problem_of(const CokrigingLevels& levels, const Cokrigin
   return problem;
 }
 
-/// Of (ln θ, ln s², ln λ), s² of the standardised response.
+/// The bounds of (ln θ, ln s², ln λ), s² of the standardised response.
 inline Box cokriging_box(const CokrigingLevel& level, const FitOptions& options) {
   constexpr double least = 1e-12;
   const double most = level.s.known_noise > 0 ? most_process_variance : 1e4;

@@ -6,7 +6,7 @@
 
 namespace drawpoint::kriging::detail {
 
-/// Of the Ipopt that this was compiled with, such as "3.11.9".
+/// The version of the Ipopt that this was compiled with, such as "3.11.9".
 inline const char* ipopt_version() { return IPOPT_VERSION; }
 
 }  // namespace drawpoint::kriging::detail

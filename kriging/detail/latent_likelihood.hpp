@@ -248,7 +248,7 @@ inline void check_inputs(const std::string& place, const Eigen::MatrixXd& X, con
   require_levels(place, X, inputs.levels);
 }
 
-/// Of the same runs.
+/// The scaling of the inputs of such runs to [-1, 1]; categories keep their levels.
 inline InputScale latent_scale(const Eigen::MatrixXd& X, const LatentInputs& inputs) {
   FitOptions box;
   box.lower = inputs.lower;

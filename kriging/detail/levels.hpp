@@ -28,7 +28,7 @@ inline bool is_category(const std::vector<int>& levels, Index k) {
   return !levels.empty() && levels[static_cast<std::size_t>(k)] > 0;
 }
 
-/// Of two scaled values of input k.
+/// The distance between two scaled values of input k.
 inline double distance_between(const std::vector<int>& levels, Index k, double a, double b) {
   if (is_category(levels, k)) return a == b ? 0.0 : level_distance;
   return std::abs(a - b);

@@ -5,7 +5,7 @@
 /// The derivatives of the likelihood by the parameters of the correlation, ½ Σ M Rₐ and ½ Σ M R_ab; the
 /// equations stand in likelihood.hpp.
 ///
-/// Of a product Rₐ = C∘∂ln c/∂a, of a sum Rₐ = ∂c/∂a itself (correlation_slopes.hpp). Cost n² per variable.
+/// Where c is a product, Rₐ = C∘∂ln c/∂a; where it is a sum, ∂c/∂a (correlation_slopes.hpp). Cost n² per variable.
 
 #include <algorithm>
 #include <cmath>

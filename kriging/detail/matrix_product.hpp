@@ -33,7 +33,7 @@ struct Block {
 
 inline Block block_of(Eigen::MatrixXd& A) { return {A.data(), A.rows(), A.cols(), A.rows()}; }
 
-/// Of a matrix that is only read.
+/// The block of a whole matrix that is only read.
 inline Block block_of(const Eigen::MatrixXd& A) {
   return {const_cast<double*>(A.data()), A.rows(), A.cols(), A.rows()};
 }

@@ -54,7 +54,7 @@ class JsonReader {
     return {json_[key], file_, place_.empty() ? key : place_ + "/" + key};
   }
 
-  /// Of a list.
+  /// Entry k of a list.
   JsonReader entry(std::size_t k) const { return {json_[k], file_, place_ + "[" + std::to_string(k) + "]"}; }
 
   double number(bool finite = true) const {

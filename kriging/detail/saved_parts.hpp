@@ -68,7 +68,7 @@ inline FitReport report_of(const JsonReader& in) {
           in.at("evaluations").integer(),       in.at("condition").number(false)};
 }
 
-/// Of d inputs, one of them a category.
+/// The level counts of d inputs (0: a number), at least one of them a category.
 inline std::vector<int> read_levels(const JsonReader& in, Eigen::Index d) {
   std::vector<int> levels;
   if (!in.json().is_array()) in.fail("it is no list");

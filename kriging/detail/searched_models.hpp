@@ -144,7 +144,7 @@ inline Model with_pending(const Model& model, const Eigen::MatrixXd& P) {
   return append(model, P, model.mean(P), noise);
 }
 
-/// Of the runs that have ended, at least one of them with values; pending: k x d.
+/// Fits the models to the runs that have ended, at least one with values; pending: points of runs under way, k x d.
 inline SearchedModels searched_models(const doe::Evaluations& runs, const Eigen::MatrixXd& pending) {
   SearchedModels all;
   all.exact = runs_are_exact(runs);

@@ -19,8 +19,8 @@
 
 namespace drawpoint::kriging::detail {
 
-/// Of a level above `levels` at its runs. scaled: n x d; f: the trend's values there, n x q; views: of the
-/// runs at all of `levels`; rho: g, the constant first; centre: c.
+/// What told_rho needs of a level above `levels` at its runs. scaled: n x d; f: the trend's values there, n x q;
+/// views: of the runs at all of `levels`; rho: g, the constant first; centre: c.
 struct RhoAtRuns {
   const Eigen::MatrixXd &scaled, &f;
   const LevelViews& views;

@@ -21,8 +21,8 @@
 
 namespace drawpoint::pareto::detail {
 
-/// Of rows that are left of a ranking of n, their own ranking: `rows` in the order of the fronts, within a
-/// front rising. None unless all are feasible and every front but their last is whole, for then some may have
+/// The ranking of the survivors `rows` among themselves, from the ranking of all n. None unless all are feasible,
+/// `rows` lists those of a front in rising order, and every front but their last is whole: else some may have
 /// risen.
 inline std::optional<Ranking> ranking_of_survivors(const Ranking& ranking, const std::vector<int>& rows,
                                                    Eigen::Index n) {
@@ -45,7 +45,7 @@ inline std::optional<Ranking> ranking_of_survivors(const Ranking& ranking, const
   return left;
 }
 
-/// Of each row but the last: 1 where it dominates the last one, -1 where the last one dominates it, else 0.
+/// One entry per row but the last: 1 where it dominates the last one, -1 where the last one dominates it, else 0.
 inline std::vector<signed char> against_the_last(const Eigen::MatrixXd& Y) {
   const auto last = static_cast<std::size_t>(Y.rows()) - 1;
   std::vector<signed char> lower(last, 0), higher(last, 0);  // in any objective

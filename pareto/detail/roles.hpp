@@ -40,7 +40,7 @@ inline Eigen::MatrixXd over(const Eigen::MatrixXd& Y, const Eigen::RowVectorXd& 
   return Y.array().rowwise() / range.array();
 }
 
-/// Of a limit, 0 where it is met.
+/// By how much a value breaks the limit of a response; 0 where it is met.
 inline double violation(const doe::Response& response, double value) {
   const double excess = response.goal == doe::Goal::at_most ? value - response.limit : response.limit - value;
   return std::max(excess, 0.0);

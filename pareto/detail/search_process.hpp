@@ -176,7 +176,7 @@ inline void SearchProcess::tell(std::vector<doe::Outcome> outcomes) {
   if (news_ && setting_.search.progress) setting_.search.progress(*news_);
 }
 
-/// Of points in the order of their objectives, those that are no copy of one before them: same X, same
+/// The points of `order`, sorted by their objectives, that are no copy of one before them: same X, same
 /// responses. Only points that tie in all objectives are compared.
 inline std::vector<int> without_copies(const std::vector<int>& order, const Eigen::MatrixXd& Y,
                                        const Eigen::MatrixXd& X, const Eigen::MatrixXd& responses) {

@@ -63,7 +63,7 @@ class VolumeContributions {
  private:
   static constexpr int none = -1;
 
-  /// Of what one box hides: a staircase too, y rising and x falling, from corner to corner.
+  /// A corner of what one box hides, a staircase too: y rises and x falls from corner to corner.
   struct Corner {
     double x, y;
     int next;

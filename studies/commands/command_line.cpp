@@ -272,7 +272,7 @@ std::string first_options(const CLI::App& app) {
   return text + "\n";
 }
 
-/// Of an option that is not known to the command.
+/// A suggestion in place of an option that the command does not know (did_you_mean.h); empty where there is none.
 std::string meant_by(const CLI::App& app, const CLI::ParseError& error) {
   const std::string what = error.what();
   const std::size_t at = what.find("--");

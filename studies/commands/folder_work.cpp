@@ -25,7 +25,7 @@ std::string resume_message(const Folder& folder) {
          "; give the same command again to go on\n";
 }
 
-/// Of the tasks that go on, if there are any.
+/// A message on the tasks that go on with Slurm; empty where there are none.
 std::string slurm_message(const Folder& folder) {
   const std::string arrays = arrays_of(folder);
   if (arrays.empty()) return "";

@@ -11,9 +11,9 @@
 
 namespace drawpoint::studies {
 
-/// Of the first cycle, where none is named. Prints the folder and the file that it made. Returns 0, or 130
-/// after a signal. Throws UsageError for times that the scene does not have and for a folder with frames,
-/// std::runtime_error for what is missing or fails.
+/// Draws the scene of a run as frames or a film, of the first cycle where none is named. Prints the folder and the
+/// file that it made. Returns 0, or 130 after a signal. Throws UsageError for times that the scene does not have and
+/// for a folder with frames, std::runtime_error for what is missing or fails.
 int render_frames(const Study& study, const Identity& identity, const Folder& folder, const Replayed& shown,
                   const FrameSettings& settings);
 

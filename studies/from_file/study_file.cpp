@@ -223,7 +223,7 @@ struct Command {
       {};  // what is taken as the program beside its own file, where the study file says nothing
 };
 
-/// Of the files that make the program beside those of its command: their names and checksum.
+/// Names (their number, if over five) and checksum of a program's files beside those that its command names.
 std::string described(const SimulatorFiles& files, const fs::path& folder) {
   constexpr std::size_t most_names = 5;
   std::string names;

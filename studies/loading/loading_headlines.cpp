@@ -124,7 +124,7 @@ Headline noise_of(const std::string& response, const std::string& unit, const No
               " cycles about what their number has in the mean" + share};
 }
 
-/// Of a run: what is summed over the runs, and what that is shared among.
+/// What one run adds to the sums of RunMean: `of` to the numerator, `among` to the denominator.
 struct Part {
   double of, among = 1;
 };

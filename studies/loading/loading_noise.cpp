@@ -20,7 +20,7 @@ using engine::loading::LogContent;
 
 constexpr double most_degrees = 4;
 
-/// Of one response, as the logs are read.
+/// What the logs read so far tell of the noise of one response.
 struct RunsSoFar {
   CycleScatter scatter;
   VectorXd relative;  // variance of each run over that of a cycle; not a number where unknown

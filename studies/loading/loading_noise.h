@@ -33,8 +33,8 @@ std::array<ResponseCycles, 3> cycles_of(const engine::loading::LoadingLog& log, 
 
 std::vector<int> cycle_numbers(const engine::loading::LoadingLog& log);
 
-/// Of runs with these logs, one each; empty paths and logs that cannot be read or used are passed over, and
-/// their runs count as the others do in the mean. Nothing is known where no two runs have two cycles.
+/// Noise of each response over runs with these logs, one each. A run whose path is empty, or whose log cannot be read
+/// or used, has the mean variance of the others. Nothing is known where no two runs have two cycles.
 std::array<KnownNoise, 3> noise_of_logs(const std::vector<std::filesystem::path>& logs,
                                         const OptionValues& options);
 

@@ -46,7 +46,7 @@ std::array<KnownNoise, 3> noise_of_runs(const StudyResults& results) {
   return noise_of_logs(logs, results.options);
 }
 
-/// Of response r in the draws.
+/// The part of response r that the draws agree on, 0 to 1 (loading_surfaces.h).
 double agreement(const std::vector<MatrixXd>& draws, Index r) {
   if (draws.empty()) return 0;
   VectorXd sum = VectorXd::Zero(draws.front().rows());

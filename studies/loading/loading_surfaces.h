@@ -47,7 +47,7 @@ class LoadingSurface {
   double third(Eigen::Index v, int k) const { return lower(v) + k * (upper(v) - lower(v)) / 3; }
   Eigen::VectorXd x(Eigen::Index v) const { return points_->col(v); }
   Eigen::VectorXd y(Eigen::Index r) const { return means_.col(r); }
-  /// Of the points that no other dominates.
+  /// A variable and a response at the points that no other dominates.
   Eigen::VectorXd front_x(Eigen::Index v) const { return (*points_)(front_, v); }
   Eigen::VectorXd front_y(Eigen::Index r) const { return means_(front_, r); }
 

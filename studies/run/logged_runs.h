@@ -18,8 +18,8 @@ namespace drawpoint::studies {
 std::string how_made_again(const Study& study, const Identity& identity, const Folder& folder,
                            std::int64_t run);
 
-/// Of the runs that are done, those whose log is as they wrote it; what is wrong with others becomes a
-/// warning.
+/// The runs that are done whose log is as they wrote it. A warning names logs that are damaged or not the run's; if
+/// there are none such, but some are gone, it tells how many runs have theirs.
 std::vector<const Run*> runs_with_log(const Study& study, const Identity& identity,
                                       const std::vector<Run>& runs, const Folder& folder,
                                       std::vector<std::string>& warnings);

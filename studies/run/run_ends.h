@@ -21,8 +21,8 @@ struct RunEnd {
 /// What a child says through its reply channel. `trouble`: why its program gave no outcome.
 std::string reply_text(const doe::Outcome& outcome, std::optional<ProgramTrouble::Kind> trouble = {});
 
-/// Of a child that has ended. A crash names `printed` and its last line. Whatever the reply is, it does not
-/// throw.
+/// The end of a run, from that of its child process. For a crash the reason names `printed` and its last line. It
+/// does not throw, whatever the reply is.
 RunEnd run_end(const doe::ProcessEnd& end, const std::filesystem::path& printed);
 doe::Outcome outcome_of(const doe::ProcessEnd& end, const std::filesystem::path& printed);
 

@@ -26,7 +26,7 @@ class Workers {
   /// Ends that came since the last call; waits at most `patience` for the first. Those of the last call are
   /// taken as stored.
   virtual std::vector<doe::ProcessEnd> wait(std::chrono::milliseconds patience) = 0;
-  /// Of tasks that wait, how many and why; empty: nothing to say.
+  /// How many tasks wait and why, as text; empty where there is nothing to say.
   virtual std::string standing() const = 0;
   /// The end of this process, given by the last wait(), does not count: it is made again when it is started
   /// again.

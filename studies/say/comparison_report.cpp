@@ -47,7 +47,7 @@ std::string headlines_text(const ComparedFolders& compared) {
   return "\n" + text_table(table);
 }
 
-/// Of B, where the interval leaves 0 out.
+/// How B compares with A: better or worse, higher or lower, where the interval of the difference leaves 0 out.
 std::string verdict_text(const Comparison& runs, std::size_t j, const doe::Response& response) {
   const auto& [mean, larger, equal] = runs.responses[j];
   if (runs.paired && equal == runs.pairs) return "equal";

@@ -66,7 +66,7 @@ std::vector<json> run_values(const Run& run) {
   return {run.id, name_of(run.kind), run.point, run.replicate, std::to_string(run.seed)};
 }
 
-/// Of what is expected of a run, its noise left out (n x responses).
+/// Standard errors of the expected responses at the rows of X, the noise of a run left out (n x responses).
 Eigen::MatrixXd standard_errors(const std::vector<kriging::TransformedModel>& models,
                                 const Eigen::MatrixXd& X) {
   Eigen::MatrixXd errors(X.rows(), static_cast<Eigen::Index>(models.size()));
@@ -75,7 +75,7 @@ Eigen::MatrixXd standard_errors(const std::vector<kriging::TransformedModel>& mo
   return errors;
 }
 
-/// Of the columns of standard_errors: another where the runs tell a response of the first name.
+/// Ending of the columns that hold standard_errors; not "_standard_error" where a response has such a name.
 const char* ending_of_errors(const doe::Problem& problem) {
   for (const doe::Response& a : problem.responses)
     for (const doe::Response& b : problem.responses)

@@ -28,7 +28,7 @@ std::string with_unit(double value, const std::string& unit) {
   return number(value) + (unit.empty() || unit == "1" ? "" : " " + unit);
 }
 
-/// Of the mean response first, where single runs are noisy.
+/// The error of the mean response, as text to go before the errors on single runs; empty where these have no noise.
 std::string mean_error_text(const kriging::MeanError& error, const std::string& unit) {
   if (!(error.noise > 0)) return "";
   return "error of the mean " + with_unit(error.rmse, unit) + " (" + number(error.lower) + " to " +
@@ -57,7 +57,7 @@ Json errors_json(const kriging::Validation& v, const kriging::MeanError& error,
           {"within", count_within(v, response)}};
 }
 
-/// Of one run, on the scale that is fitted.
+/// Standard deviation of one run's noise, on the scale that is fitted, as text.
 std::string noise_text(const kriging::TransformedModel& model, const std::string& unit) {
   const double noise = std::sqrt(model.noise_variance());
   const std::string mean = noise_differs(model) ? ", in the mean square" : "",

@@ -55,7 +55,7 @@ std::string cycle_complaint(const std::vector<int>& cycles, const Replayed& show
          (one ? "" : " to " + std::to_string(cycles.back())) + "; choose one of them";
 }
 
-/// Of all cycles, or of the one that is wanted.
+/// The panels of a run's replay: those of all cycles, or of the one that is wanted.
 nlohmann::json illustrated(const Study& study, const Identity& identity, const Folder& folder,
                            const Replayed& shown) {
   nlohmann::json panels =

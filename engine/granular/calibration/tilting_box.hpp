@@ -62,7 +62,7 @@ class TiltingBox {
   KinematicBody box_;
 };
 
-/// Of what lies in the box, level: turns it until it slides. Throws std::invalid_argument if no rock lies in
+/// Turns a level box until what lies in it slides. Throws std::invalid_argument if no rock lies in
 /// its middle.
 TiltResult tilt(TiltingBox& box, const RunOptions& options);
 

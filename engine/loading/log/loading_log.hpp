@@ -52,7 +52,7 @@ struct SceneFrame {
   double t = 0;  ///< [s]
   int cycle = 0;
   std::string label;
-  /// Of rocks whose centre is in the heaped bucket, resting there or not [kg]; NaN in logs of version 4.
+  /// Mass of the rocks whose centre is in the heaped bucket, resting there or not [kg]; NaN in logs of version 4.
   double bucket_mass = std::numeric_limits<double>::quiet_NaN();
 };
 

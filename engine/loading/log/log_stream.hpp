@@ -33,7 +33,7 @@ class LogStream {
 /// Parts beside a log that says so already, or that cannot be read, are removed.
 void join_parts(const std::filesystem::path& path);
 
-/// Of FILE from part 2 on.
+/// The file of a part of the log at `path`, by its number from 2: FILE.part0002.
 std::filesystem::path part_path(const std::filesystem::path& path, int number);
 
 /// One file of a stream. `goes_on`: parts may follow.

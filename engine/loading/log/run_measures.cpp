@@ -39,7 +39,7 @@ double per_tonne(double energy, double mass) {
   return mass > 0 ? energy / (mass / 1000) : std::numeric_limits<double>::infinity();
 }
 
-// Of a row: a quantity, and 1 where it is to be averaged over.
+// A row's quantity, and 1 where the average over time counts the row, else 0.
 using Pair = std::array<double, 2>;
 
 // Time integrals per cycle.
@@ -105,7 +105,7 @@ double damage_along(const Eigen::Vector2d& direction, const std::vector<Eigen::V
   return miner_sum(rainflow(history), exponent);
 }
 
-// Of the magnitude of a vector that is logged by its components, low-passed [kN].
+// Peaks by cycle of the magnitude of a low-passed vector that is logged by its components [kN].
 std::vector<double> peaks_by_cycle(const LoadingLog& log, const std::string& name, double lowpass_hz) {
   require_measured_cycles(log);
   require_filter(("peak of " + name).c_str(), lowpass_hz);
@@ -119,7 +119,7 @@ std::vector<double> peaks_by_cycle(const LoadingLog& log, const std::string& nam
   return peaks;
 }
 
-// Of what a row gives, and 1 where it counts, over the time in which the drive is set forward.
+// Means by cycle of what `of_row` gives, over the time of the rows that it counts while the drive is set forward.
 std::vector<double> means_while_driving(const LoadingLog& log,
                                         const std::function<Pair(std::size_t row)>& of_row) {
   const record::Table& s = log.signals;

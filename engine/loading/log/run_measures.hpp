@@ -31,7 +31,7 @@
 /// bucket capacity): 0.80 to 0.95 in well blasted rock, 0.75 to 0.90 in average, 0.60 to 0.75 in poorly blasted rock.
 namespace drawpoint::engine::loading {
 
-/// Of the default rock in its mine's sizes, poured loosely (docs/decisions/0019)
+/// Porosity of the default rock in its mine's sizes, poured loosely (docs/decisions/0019)
 /// [1].
 inline constexpr double loose_ore_porosity = 0.41;
 
@@ -53,7 +53,7 @@ struct PinFatigueOptions {
 };
 double pin_load_range(const LoadingLog& log, const PinFatigueOptions& options = {});  ///< [kN]
 
-/// Of the run: means over the cycles.
+/// Measures of the whole run: the means over its cycles.
 double cycle_time(const LoadingLog& log);
 double solid_fill(const LoadingLog& log);
 double struck_fill(const LoadingLog& log);

@@ -159,7 +159,7 @@ double breadth(const ColumnModel& model) {
   return cell * std::ceil(model.options.bucket_width / cell - 1e-9);
 }
 
-// Of each strip, the share that a bucket at y covers.
+// The share of each strip that a bucket at y covers.
 Eigen::VectorXd covered(const ColumnModel& model, double y) {
   const double cell = model.grid.cell, reach = 0.5 * (breadth(model) + cell);
   Eigen::VectorXd shares(model.grid.ny());

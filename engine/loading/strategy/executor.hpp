@@ -103,7 +103,7 @@ class Executor {
   /// Ends stage 4 where the machine is: the rest of the way is not to be driven.
   void end_backing_out(const Observation& now);
 
-  /// Of the wheels' torque, what may keep the drive at its set speed [1].
+  /// Share of the wheels' torque that may keep the drive at its set speed [1].
   double drive_share() const { return stage_ == Stage::curl ? options_.moves.curl_hold : 1; }
 
   Stage stage() const { return stage_; }

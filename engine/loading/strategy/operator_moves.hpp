@@ -36,8 +36,8 @@ struct OperatorMoves {
   int rounds = 1;                ///< [1] ≥ 1
   double held_up = 0.3;          ///< [s] > 0; the drive has been slow for so long before a move
   double crowd = 0;              ///< [m/s] ≥ 0; of the drive in the curl; 0: it stands (default)
-  /// Of the wheels' torque, what keeps the drive at its speed in the curl [1]. 1: they hold as brakes do (default);
-  /// 0: the pedal is released and they roll.
+  /// Share of the wheels' torque that keeps the drive at its speed in the curl [1]. 1 (default): they hold as brakes
+  /// do; 0: the pedal is released and they roll.
   double curl_hold = 1;
   double most_slip =
       std::numeric_limits<double>::infinity();  ///< [m/s] > 0; infinity: the throttle is not eased

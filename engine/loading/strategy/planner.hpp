@@ -42,7 +42,7 @@ struct PlannerOptions {
       std::numeric_limits<double>::infinity();  ///< the bucket stays below it, at C and through the curl [m]
   /// The bucket with its load, for `roof`: points (x, z) relative to G, floor level [m]; the tip counts anyway.
   std::vector<Eigen::Vector2d> outline;
-  /// Of the tip's x at C, e.g. before the back wall [m]; d gives way first, then h.
+  /// Upper limit of the tip's x at C, e.g. before the back wall [m]; d gives way first, then h.
   double x_limit = std::numeric_limits<double>::infinity();
   /// Front tyres' foremost points ahead of the axle [m]; minus infinity: tyres limit nothing.
   double tyre_reach = -std::numeric_limits<double>::infinity();

@@ -93,7 +93,7 @@ void BatchedSolver::each_stage(const Kernel& kernel) {
   }
 }
 
-// Of a stage: more threads than that would wait in the iterations, which are most of the work.
+// The most parts of a stage: more threads than that would wait in the iterations, which are most of the work.
 int BatchedSolver::most_parts() const {
   const std::vector<int>& stages = batches_.order().stages;
   int most = 1;

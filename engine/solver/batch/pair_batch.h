@@ -49,7 +49,7 @@ struct alignas(64) PairBatch {
   bool resists;                           // any rolling or spinning
 };
 
-/// Of a batch in the last iteration: Σ|Δλ|, Σ λ_n [N s].
+/// Sums over a batch in the last iteration: Σ|Δλ|, Σ λ_n [N s].
 struct BatchSums {
   float change = 0, normal_load = 0;
 };

@@ -17,7 +17,7 @@ void add_frame_options(CLI::App& command, FrameSettings& settings);
 /// Throws UsageError where there are options for frames that are not wanted.
 bool wants_frames(const FrameSettings& settings);
 
-/// Of "1280x720"; empty where the text is none, or outside 16 to 4096 pixels.
+/// The size that "1280x720" names; empty where the text is no size, or a side is not 16 to 4096 pixels.
 std::optional<FrameSize> frame_size_from(const std::string& text);
 
 }  // namespace drawpoint::studies

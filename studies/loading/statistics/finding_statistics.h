@@ -40,9 +40,9 @@ Verdict verdict_of(const Criterion& criterion);
 /// errors.
 Finding decided(const std::string& id, const std::string& claim, const std::vector<Criterion>& criteria);
 
-/// Of an effect in draws of what is unknown: the median, and half of what reaches from it to the farther of the
-/// quantiles 2.3 % and 97.7 %, the deviation of normal draws. Unknown where it is not a number in one of twenty
-/// draws or more.
+/// Estimates an effect from draws of it: by the median, with half the distance to the farther of the quantiles 2.3 %
+/// and 97.7 % as its standard error, which is the standard deviation of normal draws. Unknown where one of twenty or
+/// more of the draws is not finite.
 Estimate estimate_of(std::vector<double> draws);
 
 /// Spearman's; ties have the mean of their ranks. Standard error 1/√(n − 1), that of unrelated values.

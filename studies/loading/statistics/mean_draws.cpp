@@ -67,7 +67,7 @@ class Posterior {
     return -0.5 * (determinant + (terms_.squares - explained) / tau2) + prior(p);
   }
 
-  /// Of p.
+  /// A draw of the coefficients c, given the parameters p and the runs.
   VectorXd coefficients(const VectorXd& p, doe::RandomStream& random) {
     factor(p);
     const double tau2 = std::exp(p[parameters() - 1]);

@@ -24,7 +24,7 @@ class Failures {
   explicit Failures(const Tables& tables);
 
   bool none() const { return !model_; }
-  /// Of a run at each row of X (n x d, natural units); 1 while no run has failed.
+  /// Probability that a run at each row of X (n x d, natural units) succeeds; 1 while no run has failed.
   Eigen::VectorXd probability_of_success(const Eigen::MatrixXd& X) const;
   /// One entry per row of X.
   std::vector<bool> avoided(const Eigen::MatrixXd& X) const;

@@ -20,7 +20,7 @@ struct FlatResponse {
   kriging::Signal signal = {};
 };
 
-/// Of models in the order of the responses; standard errors of other responses are not asked.
+/// The responses whose models (one each, in order) are flat; responses that are standard errors are left out.
 std::vector<FlatResponse> flat_responses(const std::vector<kriging::TransformedModel>& models,
                                          const doe::Problem& problem);
 

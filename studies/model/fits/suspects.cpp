@@ -27,7 +27,7 @@ std::string sentence(const kriging::Outlier& outlier, const doe::Response& respo
          std::to_string(run) + ": a fault of the simulator, or a place where the response jumps.";
 }
 
-/// Of the first run of each response that tells a standard error that cannot be.
+/// A sentence for each response with a standard error above what is allowed, which names the run with the largest.
 std::vector<std::string> absurd_errors(const Tables& tables) {
   const std::vector<std::int64_t> runs = runs_with_values(tables.training);
   std::vector<std::string> sentences;

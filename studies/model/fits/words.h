@@ -23,7 +23,7 @@ std::string labelled(const std::string& name, const std::string& unit);  ///< "l
 
 std::string superlative(const doe::Response& objective);  ///< "highest" or "lowest" is best
 
-/// Of a variable, without its unit: "1.2", "3", "ore". What is nearer to 0 than 1e-4 of the range is "0".
+/// The value of a variable as text, without its unit: "1.2", "3", "ore"; "0" if nearer to 0 than 1e-4 of the range.
 std::string setting(const doe::Variable& variable, double x);
 
 /// "alpha = 1.2, bolts = 3, rock = ore".

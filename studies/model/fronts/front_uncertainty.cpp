@@ -21,7 +21,7 @@ bool counts_on_front(const doe::Response& response) {
   return doe::is_objective(response.goal) || doe::is_constraint(response.goal);
 }
 
-/// Of the responses that count, in order; n x draws each, and 0 for the others.
+/// Sampled paths of each response's mean at the front's points, n x draws, in order; 0 for those that do not count.
 std::vector<Eigen::MatrixXd> paths_of_responses(const pareto::Front& front,
                                                 const std::vector<kriging::TransformedModel>& models,
                                                 const doe::Problem& problem, doe::Seed seed) {

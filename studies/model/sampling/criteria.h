@@ -40,7 +40,7 @@ struct CriteriaTurns {
   std::vector<CriterionShare> new_ones;  ///< who choose the others, in turn
 };
 
-/// Of `count` points after `made` ones: each gets its share of all points so far to within one.
+/// Deals out `count` points after the first `made`: each kind of criterion has its share of all so far to within one.
 CriteriaTurns turns_of(const std::vector<CriterionShare>& shares, int made, int count);
 
 /// Throws UsageError for criteria that the problem does not allow: improvement without an objective,

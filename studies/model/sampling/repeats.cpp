@@ -27,7 +27,7 @@ Eigen::MatrixXd repeatable_points(const doe::Evaluations& runs, const Failures& 
   return X(rows, Eigen::all);
 }
 
-/// Of one run of response j at each of the points, on the scale of its model.
+/// Noise variance of one run of response j at each of the points, on the scale of its model.
 Eigen::VectorXd noise_of_runs(const std::vector<kriging::TransformedModel>& models,
                               const doe::Problem& problem, std::size_t j, const Eigen::MatrixXd& points) {
   const kriging::Model& model = models[j].model();

@@ -27,7 +27,7 @@ doe::Criterion largest_of(std::vector<std::pair<doe::Criterion, double>> scores)
 
 double range_of(const Eigen::VectorXd& y) { return y.size() == 0 ? 0.0 : y.maxCoeff() - y.minCoeff(); }
 
-/// Of the ways to fit each response on the scale of its model.
+/// Disagreement of the ways to fit a response on its model's scale, over its range: the largest over all responses.
 doe::Criterion disagreement_of_ways(const doe::Evaluations& runs,
                                     const std::vector<kriging::TransformedModel>& models) {
   std::vector<std::pair<doe::Criterion, double>> scores;
@@ -71,7 +71,7 @@ doe::Criterion error_of_the_nearest_run(const doe::Problem& problem,
   return largest_of(std::move(scores));
 }
 
-/// Of the first response that is minimized or maximized.
+/// Index of the first response that is minimised or maximised.
 std::size_t objective_of(const doe::Problem& problem) {
   const auto found = std::find_if(problem.responses.begin(), problem.responses.end(),
                                   [](const doe::Response& r) { return doe::is_objective(r.goal); });

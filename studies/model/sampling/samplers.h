@@ -16,8 +16,8 @@
 
 namespace drawpoint::studies {
 
-/// Of criteria for points one by one, one or more. models: one per response, of the runs so far. `seed` is that
-/// of LOLA-Voronoi's test points.
+/// The mix of one or more criteria that choose points one by one: neither repeat nor joint_improvement. `models`: one
+/// per response, fitted to the runs so far. `seed`: that of LOLA-Voronoi's test points.
 doe::Mix mix_of(const std::vector<CriterionShare>& shares,
                 const std::vector<kriging::TransformedModel>& models, const Failures& failures,
                 doe::Seed seed);

@@ -13,7 +13,7 @@
 namespace drawpoint::studies {
 namespace {
 
-/// Of variables and responses, and of the status if there is one.
+/// Columns of an imported table: those of the variables, the responses and, if there is one, the status.
 struct ImportedColumns {
   std::vector<std::size_t> variables, responses;
   std::optional<std::size_t> status;

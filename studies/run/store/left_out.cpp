@@ -13,7 +13,7 @@ namespace {
 
 constexpr double too_large = 1e100, too_many_medians = 1e12;
 
-/// Of the finite values of one response; 0 where there are none.
+/// Median of the absolute values of one response, over the finite ones of the done runs; 0 where there are none.
 double median_size(const std::vector<Run>& runs, Eigen::Index response) {
   std::vector<double> sizes;
   for (const Run& run : runs)

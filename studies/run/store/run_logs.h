@@ -15,8 +15,8 @@ namespace drawpoint::studies {
 /// The most bytes that the log of a run may have: 4 GiB.
 inline constexpr std::uintmax_t largest_log = std::uintmax_t{4} << 30;
 
-/// Of a file's bytes, as Run::log has it. Throws std::runtime_error if it cannot be read; what is no file
-/// blocks nobody.
+/// Checksum of a file's bytes, as in Run::log. Throws std::runtime_error if it cannot be read or is no regular file,
+/// such as a pipe, which it does not wait for.
 std::string file_checksum(const std::filesystem::path& file);
 
 enum class LogState {

@@ -6,7 +6,7 @@
 
 namespace drawpoint::studies {
 
-/// Of the SQLite library that is loaded, such as "3.40.1".
+/// Version of the SQLite library that is loaded, such as "3.40.1".
 std::string sqlite_version();
 
 }  // namespace drawpoint::studies

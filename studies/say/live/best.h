@@ -18,7 +18,7 @@ struct Improvement {
 };
 
 struct Reached {
-  /// Of an objective, among the runs that keep all limits, the best last.
+  /// The improvements of an objective by runs that keep all limits, the best last; empty for other responses.
   std::vector<Improvement> improvements;
   double lowest = std::numeric_limits<double>::quiet_NaN();  ///< NaN while no run is done
   double highest = std::numeric_limits<double>::quiet_NaN();

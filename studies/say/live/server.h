@@ -19,7 +19,7 @@ namespace drawpoint::studies {
 /// code 0. Throws std::runtime_error that names the port where it cannot be had.
 void serve(Site& site, int port, const std::function<void(int port)>& started);
 
-/// Of the HTTP library, "0.11.4".
+/// Version of the HTTP library, such as "0.11.4".
 std::string http_version();
 
 }  // namespace drawpoint::studies

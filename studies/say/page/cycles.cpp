@@ -13,7 +13,7 @@ namespace {
 
 using nlohmann::json;
 
-/// Of a panel that names one; what is no panel names none, and is told of elsewhere (panels.h).
+/// The number of the cycle that a panel names; empty where it names none or is no panel, which panels.h reports.
 std::optional<int> cycle_of(const json& panel) {
   if (!panel.is_object() || !panel.contains("cycle") || !panel.at("cycle").is_number_integer()) return {};
   return panel.at("cycle").get<int>();
@@ -21,7 +21,7 @@ std::optional<int> cycle_of(const json& panel) {
 
 bool is_of(const json& panel, int cycle) { return cycle_of(panel).value_or(cycle) == cycle; }
 
-/// Of the text, without what scenes of a run share.
+/// Size of a panel as text, without the bodies and shapes, which scenes of a run share.
 std::size_t bytes_of(const json& panel) {
   std::size_t bytes = 0;
   for (const auto& [name, value] : panel.items())

@@ -20,7 +20,7 @@ std::string command(const ReportInput& input, const std::string& options) {
   return command_text(input, input.going_on.making + " " + options);
 }
 
-/// Of the responses whose models are poor, by whether noise makes them so.
+/// Names of the responses with poor models, flat ones aside: those with noisy runs if `noisy`, else the others.
 std::string poor_names(const ReportInput& input, bool noisy) {
   std::string names;
   for (std::size_t j = 0; j < input.validations.size(); ++j)

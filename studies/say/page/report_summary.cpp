@@ -119,8 +119,8 @@ std::string range_sentence(const ReportInput& input) {
          " of the trade-off, " + listed(ranges) + ".";
 }
 
-/// Of the successful confirmations, that with the least largest distance in one variable, as a share of its
-/// range.
+/// The successful confirmation nearest to x (nullptr: none), and its distance: the largest difference in a variable,
+/// as a share of its range.
 std::pair<const CheckedRun*, double> nearest_confirmation(const ReportInput& input,
                                                           const Eigen::VectorXd& x) {
   std::pair<const CheckedRun*, double> nearest{nullptr, std::numeric_limits<double>::infinity()};
