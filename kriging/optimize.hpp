@@ -13,7 +13,7 @@
 ///
 /// With one thread equal input gives equal bits; with more the points depend on which run ends first. With a
 /// journal the call after a crash goes on from the runs on disk. Cost beside each run: a fit or two per objective
-/// and limit and some 5000 predictions, 0.02 s per response at 60 runs, 1 s where runs have failed.
+/// and limit and some 5000 predictions, 0.02 to 0.05 s per response at 60 runs, 1 s where runs have failed.
 /// Sources: Jones, Schonlau, Welch 1998, J. Global Optimization 13; Schonlau 1997, "Computer experiments and
 /// global optimization"; Ginsbourger, Le Riche, Carraro 2010 (points under way); acquisition_hypervolume.hpp.
 

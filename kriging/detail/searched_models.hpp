@@ -9,7 +9,8 @@
 /// has no effect, but the likelihood often says so: θ is then 0.1 or more, a correlation of 0.67 across the box.
 /// Limits, and an objective that is alone, are modelled as logarithms where all runs are above 0, the largest is
 /// more than ten times the smallest, and the runs are likelier so: stresses and costs of a design are products of
-/// powers. Points whose runs are under way count as runs that gave what the model expects.
+/// powers. An exact objective without limits may be a sum of functions of one variable each. Points whose runs are
+/// under way count as runs that gave what the model expects.
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -99,6 +100,17 @@ inline bool take_logarithm(const Eigen::MatrixXd& X, Eigen::VectorXd& z, const F
   return true;
 }
 
+/// The model, or one that is a sum of functions of one variable each, where exact runs are clearly likelier so: of a
+/// rugged response few runs tell no more.
+inline Model additive_where_likelier(const Eigen::MatrixXd& X, const Eigen::VectorXd& z, FitOptions options,
+                                     Model model) {
+  constexpr double clearly = 6.0;  // in ln L
+  if (X.cols() < 2 || !std::isfinite(model.log_likelihood())) return model;
+  options.structure = Structure::additive;
+  Model sum = fit(X, z, options);
+  return sum.log_likelihood() > model.log_likelihood() + clearly ? sum : model;
+}
+
 /// All objectives and limits with their models, and what runs tell of failures.
 struct SearchedModels {
   doe::Problem problem;  ///< the objectives and limits alone, on the scales of the models
@@ -151,6 +163,8 @@ inline SearchedModels searched_models(const doe::Evaluations& runs, const Eigen:
   all.X = runs.X();
   all.problem.variables = runs.problem.variables;
   const std::vector<doe::Response>& responses = runs.problem.responses;
+  const auto counted = std::count_if(responses.begin(), responses.end(),
+                                     [](const doe::Response& r) { return r.goal != doe::Goal::record; });
   const bool alone = std::count_if(responses.begin(), responses.end(),
                                    [](const doe::Response& r) { return doe::is_objective(r.goal); }) == 1;
   for (std::size_t j = 0; j < responses.size(); ++j) {
@@ -159,6 +173,7 @@ inline SearchedModels searched_models(const doe::Evaluations& runs, const Eigen:
     Eigen::VectorXd z = runs.y(on_scale.name);
     const FitOptions options = search_fit_options(runs, on_scale.name, all.exact);
     Model model = fit(all.X, z, options);
+    if (all.exact && counted == 1) model = additive_where_likelier(all.X, z, options, std::move(model));
     bool logarithm = options.noise_variance.size() == 0 && wants_logarithm(responses[j], z, alone);
     if (logarithm) logarithm = take_logarithm(all.X, z, options, model);
     if (logarithm) on_scale.limit = std::log(on_scale.limit);  // NaN stays NaN

@@ -75,8 +75,8 @@ TEST(NearBest, HoldsItsPoints) {
     }
 }
 
-// Rastrigin's function of four inputs has 10 000 valleys in this box, the best of 60 random points is 22 to 31.
-// The median of eleven searches is 15; without a region it is 22.
+// Rastrigin's function of four inputs has 10 000 valleys in this box, the best of 60 random points is 22 to 31. The median
+// of eleven searches is 4; it is 15 without models that are sums of one variable each, and 22 without the region as well.
 TEST(NearBest, HelpsOnARuggedFunction) {
   const auto rastrigin = [](const VectorXd& u) {
     double sum = 0;
@@ -93,5 +93,5 @@ TEST(NearBest, HelpsOnARuggedFunction) {
   for (doe::Seed seed = 1; seed <= 11; ++seed)
     best.push_back(optimize(rastrigin, problem, 60, {.seed = seed}).best.front().y[0]);
   std::nth_element(best.begin(), best.begin() + 5, best.end());
-  EXPECT_LT(best[5], 18.5);
+  EXPECT_LT(best[5], 10.0);
 }
