@@ -90,7 +90,7 @@ std::string scene_note(const LoadingLog& log, const CycleRecord& cycle) {
          "centre is in the heaped bucket, also while the bucket only passes round them.";
 }
 
-// A signal y of the cycle at the times t on the scene's clock, which starts with the cycle [s].
+// Of the cycle, on the clock of the scene.
 json signal(const std::string& name, const std::string& unit, const std::vector<double>& t,
             const std::vector<double>& y) {
   return {{"name", name}, {"unit", unit}, {"t", rounded(t)}, {"y", rounded(y)}};
