@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-/// A region around the best run, for a search whose models see no more to gain elsewhere (trust region; Eriksson, Pearce,
+/// A region around the best run, for a search with fewer than ten runs per variable (trust region; Eriksson, Pearce,
 /// Gardner, Turner, Poloczek 2019).
 ///
 /// A model that meets the runs of a rugged response swings between them and expects most far from all, in corners or

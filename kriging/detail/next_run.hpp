@@ -191,7 +191,8 @@ inline std::optional<Eigen::VectorXd> point_of(const doe::Evaluations& taken, co
 
 /// Whether a run after the first design is chosen near the best one, which was made `age` runs ago.
 inline bool goes_near_best(const SearchedModels& s, std::int64_t after_first, Eigen::Index age) {
-  if (!s.exact || s.success || s.problem.responses.size() > 1) return false;
+  constexpr Eigen::Index few = 10;  // runs per variable: more of them tell where else to look
+  if (!s.exact || s.success || s.problem.responses.size() > 1 || s.X.rows() >= few * s.X.cols()) return false;
   return after_first % 3 == 1 || age > 2 * s.X.cols();
 }
 

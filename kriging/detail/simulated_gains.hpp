@@ -10,6 +10,7 @@
 /// the noisy model makes: it counts where it is more than any set gains, by clear_lead.
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <drawpoint/doe/seed.hpp>
 #include <drawpoint/kriging/detail/dense.hpp>
@@ -48,7 +49,6 @@ inline TrainingData simulated(const ModelState& model, const TrainingData& data,
   TrainingData made = data;
   made.y = product(model.F, model.gls.beta);
   add_product(made.y.data(), std::sqrt(model.process_variance), model.L, normal.data());
-  made.observed = affine(made.y, data.y_scale, data.y_centre);
   return made;
 }
 
