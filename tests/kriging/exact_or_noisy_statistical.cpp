@@ -84,8 +84,8 @@ TEST(ExactRuns, AreMetAndLeaveIntervalsThatHold) {
   EXPECT_LT(of_exact, 1.05 * of_likeliest);
 }
 
-// The default finds that out by itself in 23 of 32 designs: in six of eight, so that intervals hold 6/8 of 93 %
-// and 2/8 of 48, less three of the 2 that a design scatters by over √8: 80 %.
+// The default finds that out by itself in 23 of 32 designs: in three of eight or more with a probability of 0.995. Then
+// intervals hold 3/8 of 93 % and 5/8 of 48, less three of the 2 that a design scatters by over √8: 62 %.
 TEST(ExactRuns, AreFoundByTheDefault) {
   int held = 0, exact = 0;
   for (doe::Seed seed = 1; seed <= 8; ++seed) {
@@ -102,8 +102,8 @@ TEST(ExactRuns, AreFoundByTheDefault) {
       EXPECT_LT(arm.square(model), 1.1 * arm.square(asked_not));
     }
   }
-  EXPECT_GE(exact, 6);
-  EXPECT_GE(held, 0.80 * 4000);
+  EXPECT_GE(exact, 3);
+  EXPECT_GE(held, 0.62 * 4000);
 }
 
 // The other side: of 60 responses of nothing but noise none passes for exact, nor do smooth ones with noise of a tenth.
