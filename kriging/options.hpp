@@ -21,8 +21,8 @@ namespace drawpoint::kriging {
 /// What is known of the noise of the runs.
 enum class Noise {
   /// Nothing but that it is the same everywhere: λ is estimated. Runs at equal points that all agree tell that
-  /// there is none: they count once, as with `none`. Runs without repeats that are clearly likelier without any are
-  /// taken for exact (detail/exact_or_noisy.hpp).
+  /// there is none: they count once, as with `none`. Runs without repeats are taken for exact
+  /// where they gain more likelihood so than chance gives, unless may_be_exact is false (detail/exact_or_noisy.hpp).
   nugget,
   known,         ///< the variance of each run, FitOptions::noise_variance; λ follows from s²
   pooled,        ///< the same everywhere, on the scale that is fitted: each of noise_variance estimates it

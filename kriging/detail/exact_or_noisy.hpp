@@ -15,9 +15,10 @@
 ///   corners the likeliest fit is now and then a poor one (choice.hpp);
 /// * runs of the noisy model would not gain as much (simulated_gains.hpp), unless the gain is above sure_gain, three
 ///   times what noisy runs ever gained.
-/// Of 1152 sets of noisy runs (docs/measurements/kriging.md) three are taken for exact, with 0.76 to 1.13 of the error.
-/// Cost: two searches from few starts where the default finds noise, a whole one where these come near, and as many as
-/// sixteen from few starts where only the last is left.
+/// Three of 1152 sets of noisy runs are taken for exact (docs/measurements/kriging.md), with 0.76 to 1.13 of the error;
+/// where a response is rough for its runs noise of a third of its deviation mostly is.
+/// Cost: two searches from few starts where the default finds noise, a whole one where these come near, and up to two for
+/// each of sixteen simulated sets where only the last is left.
 
 #include <cmath>
 #include <drawpoint/kriging/detail/box_shares.hpp>

@@ -42,8 +42,8 @@ TEST(KeptStudy, ItsModelsDoNotFollowTheNoise) {
   EXPECT_GE(count_within(production, tables.training.problem.responses[0]), 35);
 }
 
-// Of twelve validation runs nine or more lie within 95 % with a probability of 0.998, if the intervals hold what they say.
-// Where load of buckets, 0.8 t of noise in it, was taken for exact, seven did.
+// Nine or more of twelve validation runs lie within 95 % with a probability of 0.998, if the intervals hold what they
+// say. Seven did where the load of buckets, 0.8 t of noise in it, was taken for exact.
 TEST(KeptStudy, IntervalsOfEveryResponseHold) {
   const TestFolder folder;
   for (const char* study : {"lhd_bucket_and_speed", "lhd_strategies", "drawpoint", "lindmark2016"}) {
