@@ -63,8 +63,8 @@ struct Response {
   /// it is a mean of cycles or samples. That one is recorded, of the same unit and at least 0. Empty:
   /// unknown.
   std::string standard_error = {};
-  /// That standard error has so many degrees of freedom in every run, one less than its independent samples. 0: they are
-  /// not known, and no run is weighed by its own standard error, which may be small by chance.
+  /// That standard error has so many degrees of freedom in every run, one less than its independent samples. 0: they
+  /// are not known, and no run is weighed by its own standard error, which may be small by chance.
   double standard_error_freedom = 0;
 
   void forget_standard_error() {

@@ -217,8 +217,8 @@ class SlurmJobs {
 
   int with_slurm() const { return running() - static_cast<int>(queue_.size()); }
 
-  /// Submits as many arrays as there is room for; one at a time where the tasks at a time have a bound, which Slurm keeps
-  /// for one array alone.
+  /// Submits as many arrays as there is room for; one at a time where the tasks at a time have a bound, which Slurm
+  /// keeps for one array alone.
   void submit() {
     constexpr int most_waiting = 2000;  // with Slurm at a time: queues of clusters have bounds
     if (Clock::now() < next_submission_) return;

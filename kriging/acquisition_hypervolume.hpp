@@ -242,7 +242,8 @@ doe::Criterion expected_hypervolume_improvement(const doe::Problem& problem, con
 
 /// Improvement on the fitted values of the runs themselves that keep all limits, times the probability of
 /// feasibility. The reference point lies as far beyond their front as that is long, or at the worst run. While no run
-/// is feasible the score is that probability alone. Throws as above, and when the models were fitted to different numbers of runs.
+/// is feasible the score is that probability alone. Throws as above, and when the models were fitted to different
+/// numbers of runs.
 template <Regression S>
 doe::Criterion constrained_hypervolume_improvement(const doe::Problem& problem,
                                                    const std::vector<S>& models) {

@@ -5,14 +5,14 @@
 /// Variances of few samples, each drawn towards those of all.
 ///
 /// A variance of few samples is off by chance: of two samples one in ten is below 1.6 % of the true one, and a
-/// fit that takes it for known goes through that run and is sure of it. Let the true precisions 1/σᵢ² scatter as a χ² of
-/// d₀ degrees, with the mean 1/s₀², and the variances vᵢ of samples as χ² of dᵢ degrees about σᵢ². Then the precision of
-/// run i is expected at the inverse of (d₀ s₀² + dᵢ vᵢ)/(d₀ + dᵢ), which is what a fit weighs it by. d₀ and s₀² follow
-/// from mean and variance of ln vᵢ, which are ln s₀² + ψ(d/2) − ln(d/2) − ψ(d₀/2) + ln(d₀/2) and ψ'(d/2) + ψ'(d₀/2).
-/// Where the vᵢ scatter no more than chance has it, d₀ is infinite and all are equal; where each has many degrees, none
-/// moves. The scatter is taken one standard error lower than it is found, so that few runs err towards one variance; and
-/// where some vᵢ are 0, which samples of a normal variable never are, all are equal.
-/// Source: Smyth 2004, Statistical Applications in Genetics and Molecular Biology 3(1), 3.
+/// fit that takes it for known goes through that run and is sure of it. Let the true precisions 1/σᵢ² scatter as a χ²
+/// of d₀ degrees, with the mean 1/s₀², and the variances vᵢ of samples as χ² of dᵢ degrees about σᵢ². Then the
+/// precision of run i is expected at the inverse of (d₀ s₀² + dᵢ vᵢ)/(d₀ + dᵢ), which is what a fit weighs it by. d₀
+/// and s₀² follow from mean and variance of ln vᵢ, which are ln s₀² + ψ(d/2) − ln(d/2) − ψ(d₀/2) + ln(d₀/2) and ψ'(d/2)
+/// + ψ'(d₀/2). Where the vᵢ scatter no more than chance has it, d₀ is infinite and all are equal; where each has many
+/// degrees, none moves. The scatter is taken one standard error lower than it is found, so that few runs err towards
+/// one variance; and where some vᵢ are 0, which samples of a normal variable never are, all are equal. Source: Smyth
+/// 2004, Statistical Applications in Genetics and Molecular Biology 3(1), 3.
 
 #include <Eigen/Core>
 #include <cmath>
@@ -53,8 +53,8 @@ inline void check_moderated(const Eigen::VectorXd& own, const Eigen::VectorXd& f
                                   "above 0; leave out runs that report none");
 }
 
-/// The variance of ln v that chance gives, ψ'(d/2), and one standard error of what n values show of it: the logarithm of
-/// a χ² of d degrees has an excess kurtosis below 5/d.
+/// The variance of ln v that chance gives, ψ'(d/2), and one standard error of what n values show of it: the logarithm
+/// of a χ² of d degrees has an excess kurtosis below 5/d.
 inline double scatter_by_chance(const Eigen::ArrayXd& half) {
   const auto n = static_cast<double>(half.size());
   const double excess = (2.5 / half).mean();

@@ -6,13 +6,13 @@
 ///
 /// Standard errors of a few samples are off by chance, two samples' by their own size, so a fit should not
 /// take each for the truth (Noise::known), but draw it towards the others (moderated_noise.hpp). All together they
-/// know one size of noise well: of n runs of k samples each it is off by 1/√(2n(k − 1)) of itself (Noise::pooled), where the likelihood of the responses
-/// alone may be off by several times. Where noise varies smoothly over the box, a Kriging model of all
-/// standard errors, on the scale of their logarithm, knows it better than any of them; its own noise is how
-/// far samples miss. It expects of normal samples 0.8 to 1.0 of their deviation, two samples to many. It does
-/// not know of a run that is worse than its neighbours. Sources: Ankenman, Nelson, Staum 2010, Operations
-/// Research 58(2), "Stochastic Kriging for Simulation Metamodeling", section 4; Kersting, Plagemann, Pfaff,
-/// Burgard 2007, ICML, "Most Likely Heteroscedastic Gaussian Process Regression" (the logarithm).
+/// know one size of noise well: of n runs of k samples each it is off by 1/√(2n(k − 1)) of itself (Noise::pooled),
+/// where the likelihood of the responses alone may be off by several times. Where noise varies smoothly over the
+/// box, a Kriging model of all standard errors, on the scale of their logarithm, knows it better than any of them;
+/// its own noise is how far samples miss. It expects of normal samples 0.8 to 1.0 of their deviation, two samples to
+/// many. It does not know of a run that is worse than its neighbours. Sources: Ankenman, Nelson, Staum 2010,
+/// Operations Research 58(2), "Stochastic Kriging for Simulation Metamodeling", section 4; Kersting, Plagemann,
+/// Pfaff, Burgard 2007, ICML, "Most Likely Heteroscedastic Gaussian Process Regression" (the logarithm).
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -70,7 +70,9 @@ inline TransformedModel fit_noise(const Eigen::MatrixXd& X, const Eigen::VectorX
   detail::check_run_noise(noise_variance, X.rows(), "kriging::fit_noise: ");
   Eigen::VectorXd deviation = noise_variance;
   for (double& entry : deviation) entry = std::sqrt(entry);
-  return fit_transformed(X, deviation, Scale::logarithm, {.lower = 0}, options);
+  FitOptions of_samples = options;
+  of_samples.may_be_exact = false;  // samples miss the noise by chance
+  return fit_transformed(X, deviation, Scale::logarithm, {.lower = 0}, of_samples);
 }
 
 /// What it expects at the rows of X (m x d): m variances, unit of y squared.

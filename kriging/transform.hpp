@@ -258,10 +258,10 @@ inline void check_range(const Eigen::VectorXd& y, Scale scale, const ResponseRan
 
 /// The transform of a response whose runs are y, all within the range. Where runs lie on a bound of a
 /// logarithm or logit, its offset is half of the least other distance from it; runs that all lie there have
-/// none, and leave the scale linear. Where the noise of runs is known (variances, unit of y squared) and some scatter by
-/// more than their distance from the bound, the offset is at least the median of their deviations: with less, noise
-/// would span decades. Throws std::invalid_argument for a range that lacks what the scale needs, for y outside of it, and
-/// for variances that are not one per run.
+/// none, and leave the scale linear. Where the noise of runs is known (variances, unit of y squared) and some scatter
+/// by more than their distance from the bound, the offset is at least the median of their deviations: with less, noise
+/// would span decades. Throws std::invalid_argument for a range that lacks what the scale needs, for y outside of it,
+/// and for variances that are not one per run.
 inline Transform transform_for(Scale scale, const Eigen::VectorXd& y, const ResponseRange& range,
                                const Eigen::VectorXd& noise_variance = {}) {
   if (scale == Scale::linear) return {};

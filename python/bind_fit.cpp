@@ -80,6 +80,7 @@ void bind_options(py::module_& m) {
              o.nugget_lower = lower;
              o.nugget_upper = upper;
            })
+      .def_readwrite("may_be_exact", &Options::may_be_exact)
       .def_readwrite("levels", &Options::levels)
       .def_readwrite("starts", &Options::starts)
       .def_readwrite("seed", &Options::seed)

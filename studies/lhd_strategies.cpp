@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-/// Families of loading strategies against each other, what Lindmark (2016) leaves to later work: what should a driver do, how
-/// hard should he push, how often drop the edge, and what does it cost in energy, in the pins and in spilt rock?
+/// Families of loading strategies against each other, what Lindmark (2016) leaves to later work: what should a driver
+/// do, how hard should he push, how often drop the edge, and what does it cost in energy, in the pins and in spilt
+/// rock?
 ///
 /// At what the machine's engine and hydraulics can do, haul counted, at the middle of the drift.
 

@@ -9,9 +9,9 @@
 ///     }
 ///
 /// The program has the commands run, check, confirm, ask, tell, exclude, status, live, fit, validate, front,
-/// compare, report, replay, export, evaluate and rerun-responses (docs/reference/studies.md). Every run is a process of its own with one
-/// thread, so that a crash is one failed run; each finished run is stored before the next one starts. Equal
-/// (x, seed) must give equal outcomes: a run that was lost is simply run again.
+/// compare, report, replay, export, evaluate and rerun-responses (docs/reference/studies.md). Every run is a process of
+/// its own with one thread, so that a crash is one failed run; each finished run is stored before the next one starts.
+/// Equal (x, seed) must give equal outcomes: a run that was lost is simply run again.
 ///
 /// A figure of a simulation ("panel") is a JSON object with "type", "title", "caption" and, by type,
 ///   path   contour, planned, actual: {x: [], z: []}; stages?: [{name, x, z}]; x_label, z_label
@@ -192,8 +192,8 @@ struct Presentation {
   std::function<std::vector<Finding>(const StudyResults& results)> findings = {};
 };
 
-/// All that makes a study: name, problem and black box, and what more it has to say. Name: letters, digits, '_' and '-';
-/// it names the default output folder `results/<name>`.
+/// All that makes a study: name, problem and black box, and what more it has to say. Name: letters, digits, '_' and
+/// '-'; it names the default output folder `results/<name>`.
 struct Study {
   std::string name = {};
   doe::Problem problem = {};

@@ -12,9 +12,9 @@
 
 /// Solves recorded contact problems by any method of the table and says how true and how fast.
 ///
-/// usage: contact_problem info FILE | solve FILE [--method NAME ...] | compare FILE... [--method NAME...] [--svg FILE] | converge FILE |
-/// export FILE OUT | import FILE OUT | record SCENE FILE
-/// info, solve, compare and converge take --json. docs/explanation/contact-solving.md explains the numbers.
+/// usage: contact_problem info FILE | solve FILE [--method NAME ...] | compare FILE... [--method NAME...] [--svg FILE]
+/// | converge FILE | export FILE OUT | import FILE OUT | record SCENE FILE info, solve, compare and converge take
+/// --json. docs/explanation/contact-solving.md explains the numbers.
 using namespace drawpoint;
 using namespace drawpoint::benchmarks;
 using engine::record::RecordedProblem;

@@ -11,8 +11,9 @@
 ///
 /// The converged solution is that of as many substeps (converged_solution.hpp). Times are of the processor for one
 /// thread, of the clock for several; repeats are at least as many as asked for, short ones go on for 0.4 s. The time
-/// of a solve is the least, threads and buffers being there (contact_methods.hpp). The time per contact point and iteration is the median difference between a long solve
-/// and a short one just before, so that making the problem ready, which `milliseconds` contains, is not in it.
+/// of a solve is the least, threads and buffers being there (contact_methods.hpp). The time per contact point and
+/// iteration is the median difference between a long solve and a short one just before, so that making the problem
+/// ready, which `milliseconds` contains, is not in it.
 namespace drawpoint::benchmarks {
 
 struct Evaluation {

@@ -18,8 +18,8 @@
 #include <functional>
 
 /// FCL's narrow phase on convex polyhedra: the smallest cases known in which it is wrong, and how often and how fast
-/// it is on rocks that meet feature on feature. `fcl_failures [PAIRS]`, 100 000 if not said. Each case and each row runs
-/// in a process of its own: some end it. Reported in docs/measurements/fcl-narrow-phase.md.
+/// it is on rocks that meet feature on feature. `fcl_failures [PAIRS]`, 100 000 if not said. Each case and each row
+/// runs in a process of its own: some end it. Reported in docs/measurements/fcl-narrow-phase.md.
 namespace {
 
 using namespace drawpoint;

@@ -8,10 +8,10 @@
 
 /// The force on the bucket by several choices of step and solver, from the same states.
 ///
-/// A cycle is driven by the scenario's own choice. While its bucket digs, each of the others goes on from the state that the
-/// cycle is in, for a short window with the speeds that are set then, and is undone. Whole cycles differ by what chaos makes
-/// of a micrometre; windows end before it does, so a few cycles tell the force to some percent. What builds up over longer
-/// than a window, such as how loose the pile gets, they do not see.
+/// A cycle is driven by the scenario's own choice. While its bucket digs, each of the others goes on from the state
+/// that the cycle is in, for a short window with the speeds that are set then, and is undone. Whole cycles differ by
+/// what chaos makes of a micrometre; windows end before it does, so a few cycles tell the force to some percent. What
+/// builds up over longer than a window, such as how loose the pile gets, they do not see.
 namespace drawpoint::benchmarks {
 
 struct WindowOptions {

@@ -14,7 +14,8 @@
 #include "setting.hpp"
 #include "step_times.hpp"
 
-/// What a loading cycle costs: seconds of a core per cycle, cycles per core-hour, and where steps spend them. See --help.
+/// What a loading cycle costs: seconds of a core per cycle, cycles per core-hour, and where steps spend them. See
+/// --help.
 using namespace drawpoint;
 using namespace drawpoint::benchmarks;
 using namespace drawpoint::engine::loading;

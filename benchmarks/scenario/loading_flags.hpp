@@ -30,8 +30,8 @@ struct OperationFlags {
 /// --arm hinges".
 std::string in_words(const OperationFlags& flags);
 
-/// --speeds, --operator and its numbers, and the laws of the operation: --curl, --lift, --lift-end, --progress, --arm and
-/// --whole-cycle.
+/// --speeds, --operator and its numbers, and the laws of the operation: --curl, --lift, --lift-end, --progress,
+/// --arm and --whole-cycle.
 void add_operation_flags(CLI::App& app, OperationFlags& flags);
 
 /// The drift and what lies in it; what is not given is the scene's.

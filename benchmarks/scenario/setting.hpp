@@ -6,8 +6,8 @@
 #include <string>
 
 /// A choice of step and work of the solver, in one word: STEPxSUBSTEPSxITERATIONS, with +BUDGET for iteration
-/// budget and ~TOLERANCE after that. "10x16x1+20000~0.02" is 10 ms, 16 substeps of at least one iteration, and more up to
-/// 20 000 iterations times points, until one changes less than 0.02 of the load.
+/// budget and ~TOLERANCE after that. "10x16x1+20000~0.02" is 10 ms, 16 substeps of at least one iteration, and more up
+/// to 20 000 iterations times points, until one changes less than 0.02 of the load.
 namespace drawpoint::benchmarks {
 
 struct Setting {

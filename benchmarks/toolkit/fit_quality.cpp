@@ -53,8 +53,9 @@ many took half of the variance of the noise or more for signal.
 
 Ways: `default`; `plug-in`, the same with its parameters taken as known; `likeliest`, plain maximum likelihood
 with its parameters taken as known; `expect-none`, the default with nugget_power 0, which expects no noise;
-`linear`, the default with a linear trend; `chosen`, the one that kriging::choose_fit takes of Gaussian and Matern
-5/2 with constant and linear trend, as studies do; `isotropic` and `additive`, the default with these correlations.
+`none`, runs known to be exact; `linear`, the default with a linear trend; `chosen`, the one that
+kriging::choose_fit takes of Gaussian and Matern 5/2 with constant and linear trend, as studies do; `isotropic` and
+`additive`, the default with these correlations.
 
 Designs: `latin`, a random Latin hypercube; `maximin`, an optimised one; `lattice`, the same from a lattice
 where that lies farther apart; `discrepancy`, optimised by centred discrepancy; `corners`, maximin with the 2^d
@@ -79,17 +80,19 @@ TransformedModel chosen_fit(const Eigen::MatrixXd& X, const Eigen::VectorXd& y) 
 }
 
 std::vector<Way> ways() {
-  FitOptions plug_in, likeliest, expect_none, linear, isotropic, additive;
+  FitOptions plug_in, likeliest, expect_none, none, linear, isotropic, additive;
   plug_in.parameter_uncertainty = likeliest.parameter_uncertainty = false;
   likeliest.estimation = Estimation::maximum_likelihood;
   expect_none.nugget_power = 0;
+  none.noise = Noise::none;
   linear.trend = Trend::linear;
   isotropic.structure = Structure::isotropic;
   additive.structure = Structure::additive;
   return {fit_with("default", {}),          fit_with("plug-in", plug_in),
           fit_with("likeliest", likeliest), fit_with("expect-none", expect_none),
-          fit_with("linear", linear),       {"chosen", chosen_fit},
-          fit_with("isotropic", isotropic), fit_with("additive", additive)};
+          fit_with("none", none),           fit_with("linear", linear),
+          {"chosen", chosen_fit},           fit_with("isotropic", isotropic),
+          fit_with("additive", additive)};
 }
 
 /// All that can be asked for by name.

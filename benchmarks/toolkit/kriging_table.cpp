@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 
-// Fits by maximum likelihood of the three reference functions: CPU seconds, likelihood, error and predictions per second.
+// Fits by maximum likelihood of the three reference functions: CPU seconds, likelihood, error and predictions per
+// second.
 //
 //   kriging_table [--threads N] [--seeds N] [RUNS...]      default: one thread, 11 seeds at 100 runs,
 //                                                          RUNS 100 500

@@ -4,11 +4,11 @@
 /// What polishing adds to a front that a search found on Kriging surrogates, and how sure that front is.
 ///
 /// Four variables in the ranges of the study lhd_loading and three responses that behave as the loading study
-/// found (findings F1 to F9 of Lindmark (2016): production has its optimum near alpha = 1.1, damage a ridge near 1 and at
-/// kappa = 0.4, spill grows with alpha and beta), as smooth formulas. 120 runs of an optimised design, exact
-/// and with noise of 5 % of each range; then fit, NSGA-II 250 x 100, polish in both forms, certify by the
-/// residual of the first-order conditions. Gains are measured on the surrogate, the function that is
-/// searched. Times are CPU seconds of the process, hypervolumes in ranges: reference (0 kg/s, 40 s, 0.4).
+/// found (findings F1 to F9 of Lindmark (2016): production has its optimum near alpha = 1.1, damage a ridge near 1 and
+/// at kappa = 0.4, spill grows with alpha and beta), as smooth formulas. 120 runs of an optimised design, exact and
+/// with noise of 5 % of each range; then fit, NSGA-II 250 x 100, polish in both forms, certify by the residual of the
+/// first-order conditions. Gains are measured on the surrogate, the function that is searched. Times are CPU seconds of
+/// the process, hypervolumes in ranges: reference (0 kg/s, 40 s, 0.4).
 
 #include <algorithm>
 #include <cmath>

@@ -3,12 +3,12 @@
 
 /// told_noise_table: what it is worth that runs tell their own standard error. Each run is the mean of a few
 /// noisy samples; fits with the noise estimated, the same everywhere, beside fits with what the runs tell
-/// together, what each tells, that moderated by the others, and a model of that, and the choice among the five. Takes no options; prints a
-/// table: errors over the deviation of the response, and how many of fresh runs lie within their 95 %
-/// interval, where the noise is small and where it is large. A second table has what a study does, which
-/// chooses among four kinds of fit before the source: with estimated noise, with pooled noise, and with pooled
-/// noise and then the source that refits prefer, of few samples each's own word as it is and moderated; means over the
-/// designs, and the least share held, and how often the model's interval of the mean holds the function.
+/// together, what each tells, that moderated by the others, and a model of that, and the choice among the five. Takes
+/// no options; prints a table: errors over the deviation of the response, and how many of fresh runs lie within their
+/// 95 % interval, where the noise is small and where it is large. A second table has what a study does, which chooses
+/// among four kinds of fit before the source: with estimated noise, with pooled noise, and with pooled noise and then
+/// the source that refits prefer, of few samples each's own word as it is and moderated; means over the designs, and
+/// the least share held, and how often the model's interval of the mean holds the function.
 
 #include <algorithm>
 #include <array>

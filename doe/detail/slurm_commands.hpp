@@ -48,7 +48,8 @@ inline std::vector<std::string> slurm_variables() {
   return names;
 }
 
-/// What the command prints, whatever the variables above say. Throws SlurmError when it fails, is not there, or says nothing for a minute.
+/// What the command prints, whatever the variables above say. Throws SlurmError when it fails, is not there, or says
+/// nothing for a minute.
 inline std::string slurm_answer(const std::vector<std::string>& words) {
   std::string clean;
   for (const std::string& name : slurm_variables()) clean += "unset " + name + "; ";

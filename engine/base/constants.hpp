@@ -23,15 +23,16 @@ constexpr double impact_speed = 0.05;
 /// Higher: an impact is struck again, and the pile shakes. Lower: load builds up more slowly than it may.
 constexpr double load_growth = 2;
 
-/// [m/s], [rad/s] When the bodies in contact are no faster than this before and after a step's first substep, in the root
-/// mean square, and none is faster than `standing_speed_of_one`, all stand: the other substeps are not made, and nothing
-/// moves. Chosen here: loads are within 1.6e-4 of a weight then, and a rock that is pushed by less than ten times that, at
-/// rest and in a pile at rest, does not begin to move. Higher: loads are less true, and rocks that are pushed harder stay.
-/// Lower: round-off of single precision keeps piles going (one small rock of 3000 trembled at 1e-6 to 2e-6).
+/// [m/s], [rad/s] When the bodies in contact are no faster than this before and after a step's first substep, in the
+/// root mean square, and none is faster than `standing_speed_of_one`, all stand: the other substeps are not made, and
+/// nothing moves. Chosen here: loads are within 1.6e-4 of a weight then, and a rock that is pushed by less than ten
+/// times that, at rest and in a pile at rest, does not begin to move. Higher: loads are less true, and rocks that are
+/// pushed harder stay. Lower: round-off of single precision keeps piles going (one small rock of 3000 trembled at 1e-6
+/// to 2e-6).
 constexpr double standing_speed = 1e-6, standing_speed_of_one = 1e-5;
 
-/// [1] Σ|Δλ| of that substep's last iteration, of Σ λ_n, at most. Chosen here. Higher: a pile that still finds its balance
-/// is stopped. Lower: single precision hardly gets there.
+/// [1] Σ|Δλ| of that substep's last iteration, of Σ λ_n, at most. Chosen here. Higher: a pile that still finds its
+/// balance is stopped. Lower: single precision hardly gets there.
 constexpr double standing_change = 1e-5;
 
 /// [m/s] At most so fast are overlapping bodies pushed apart. Chosen here: overlaps above 20 mm are slowed down with
@@ -53,10 +54,10 @@ constexpr double least_hertz_overlap = 1e-5;
 /// round-off.
 constexpr double singular_double = 1e-12, singular_single = 1e-5;
 
-/// [1] Momentum of the iterations: every second one of a substep starts from λ + β (λ − λ'), λ' what it was two iterations
-/// (at first one) before. Chosen here among 0.3 to 0.8, on recorded steps of a loading cycle
-/// (docs/measurements/contact-solving.md). Higher: sooner near the solution, but single contacts keep swinging about it.
-/// Lower: load travels through chains of rocks more slowly.
+/// [1] Momentum of the iterations: every second one of a substep starts from λ + β (λ − λ'), λ' what it was two
+/// iterations (at first one) before. Chosen here among 0.3 to 0.8, on recorded steps of a loading cycle
+/// (docs/measurements/contact-solving.md). Higher: sooner near the solution, but single contacts keep swinging about
+/// it. Lower: load travels through chains of rocks more slowly.
 constexpr double momentum = 0.6;
 
 /// [iterations] Of a substep, after which there is no more momentum. Chosen here. Higher: in single precision a body's
@@ -88,21 +89,23 @@ constexpr int slabs = 256;
 
 // Steps.
 
-/// [s] The step of a world. Shorter: 1/h² of a contact's compliance leaves single precision. Longer: a rock of 0.3 m that
-/// falls 5 m goes farther than its own size.
+/// [s] The step of a world. Shorter: 1/h² of a contact's compliance leaves single precision. Longer: a rock of 0.3 m
+/// that falls 5 m goes farther than its own size.
 constexpr double shortest_step = 1e-9, longest_step = 0.1;
 
-/// [1] A step that is longer than the last by more than this starts from no impulses: those of a short step may be an impact, not
-/// a load that grows with it. Chosen here. Higher: such an impact is multiplied. Lower: loads are lost that would serve.
+/// [1] A step that is longer than the last by more than this starts from no impulses: those of a short step may be an
+/// impact, not a load that grows with it. Chosen here. Higher: such an impact is multiplied. Lower: loads are lost that
+/// would serve.
 constexpr double most_growth = 10;
 
 // Geometry.
 
-/// [1] Of a hull's extent: points nearer than this are one, and corners so near to a plane lie in it. Text of six digits
-/// is off by up to 5e-6 of its number. Higher: small faces are lost. Lower: faces of a mesh stay in pieces.
+/// [1] Of a hull's extent: points nearer than this are one, and corners so near to a plane lie in it. Text of six
+/// digits is off by up to 5e-6 of its number. Higher: small faces are lost. Lower: faces of a mesh stay in pieces.
 constexpr double hull_thickness = 1e-5;
 
-/// [1] Of a hull's extent: the least width of a hull. Lower: planes are tilted by round-off. Higher: sheets are refused.
+/// [1] Of a hull's extent: the least width of a hull. Lower: planes are tilted by round-off. Higher: sheets are
+/// refused.
 constexpr double least_hull_width = 1e-6;
 
 /// [m] A face is taken as the axis before a pair of edges that separates by up to so much more: where they
@@ -110,9 +113,10 @@ constexpr double least_hull_width = 1e-6;
 /// that much depth. Lower: the manifold of a rock on its face may fall to one point by round-off.
 constexpr double face_preference = 1e-7;
 
-/// [1] Cosine of the angle between the axis of two edges and a face beside them, from which on the face's contact points
-/// join the crossing of the edges: 1.15°, by which a rock on a chord of 0.2 m rocks when its ends part by 4 mm. Chosen
-/// here. Higher: one end at a time carries the rock, and it rattles. Lower: the points' normal is off by the angle.
+/// [1] Cosine of the angle between the axis of two edges and a face beside them, from which on the face's contact
+/// points join the crossing of the edges: 1.15°, by which a rock on a chord of 0.2 m rocks when its ends part by 4 mm.
+/// Chosen here. Higher: one end at a time carries the rock, and it rattles. Lower: the points' normal is off by the
+/// angle.
 constexpr double flat_cosine = 0.9998;
 
 /// [1] So much more counts a point of the last step in the choice of four. Chosen here. Higher: points stay that others
@@ -132,8 +136,8 @@ constexpr double coincident = 1e-9;
 /// Chosen here; costs a radius times this, in height.
 constexpr double upright = 1e-9;
 
-/// [1] Of the farthest coordinates: what bounds of separations are eased by in single precision, unit round-off u = 2⁻²⁴.
-/// Derived: the difference of two points is off by 2u of them both, its products with a unit vector and their sum
+/// [1] Of the farthest coordinates: what bounds of separations are eased by in single precision, unit round-off u =
+/// 2⁻²⁴. Derived: the difference of two points is off by 2u of them both, its products with a unit vector and their sum
 /// by 4u more, the root of two such squares by 12u in all; 16u. Costs a candidate too many. Lower: the axis of least
 /// overlap may be missed.
 constexpr double single_round_off = 0x1p-20;
@@ -144,8 +148,8 @@ constexpr double height_round_off = 1e-12;
 
 // Finding contacts (collision, world).
 
-/// [1] Sides of the prism that stands in for a cylinder against polyhedra: it lies within R (1 − cos(π/48)) = 0.0021 R of
-/// it, its normals step by 7.5°. Chosen here. More: truer wheels, edges that cost time in every pair.
+/// [1] Sides of the prism that stands in for a cylinder against polyhedra: it lies within R (1 − cos(π/48)) = 0.0021 R
+/// of it, its normals step by 7.5°. Chosen here. More: truer wheels, edges that cost time in every pair.
 constexpr int cylinder_sides = 48;
 
 /// [m] FCL takes boxes that differ by round-off for equal and keeps the older one: it gets boxes larger by
@@ -171,31 +175,32 @@ constexpr double claim_tolerance = 1e-7;
 /// state may pass.
 constexpr double restored_round_off = 1e-6;
 
-/// [m] Steps of the speculative margin, so that a speed that wavers does not make contacts be searched anew. Chosen here.
-/// Higher: more candidates that do not touch. Lower: more searches.
+/// [m] Steps of the speculative margin, so that a speed that wavers does not make contacts be searched anew. Chosen
+/// here. Higher: more candidates that do not touch. Lower: more searches.
 constexpr double speculative_step = 5e-3;
 
-/// [m] A point this far apart joins the solve even when it does not close in; with the motion of two steps added it covers
-/// what the solve itself sets moving, but for hard impacts (world/extra_reach.h). Chosen here. Higher: more
+/// [m] A point this far apart joins the solve even when it does not close in; with the motion of two steps added it
+/// covers what the solve itself sets moving, but for hard impacts (world/extra_reach.h). Chosen here. Higher: more
 /// points to solve. Lower: a contact may be missed for a step.
 constexpr double resting_margin = 1e-3;
 
-/// [m] Shapes that are swept towards each other touch when they come this near. Derived: above face_preference, by which an
-/// edge may be nearer than is said. Higher: shapes that pass each other catch.
+/// [m] Shapes that are swept towards each other touch when they come this near. Derived: above face_preference, by
+/// which an edge may be nearer than is said. Higher: shapes that pass each other catch.
 constexpr double touching = 1e-6;
 
-/// [m] By how much two surfaces of a body may lie apart where one goes on into the other (world/inner_edges.h). Chosen here.
-/// Higher: what should catch in a gap slides over it. Lower: joints of real drawings catch.
+/// [m] By how much two surfaces of a body may lie apart where one goes on into the other (world/inner_edges.h). Chosen
+/// here. Higher: what should catch in a gap slides over it. Lower: joints of real drawings catch.
 constexpr double seam_width = 1e-3;
 
-/// [m] By how much one of them may lie higher. Chosen here. Higher: a step that should stop a rock does not. Lower: as above.
+/// [m] By how much one of them may lie higher. Chosen here. Higher: a step that should stop a rock does not. Lower: as
+/// above.
 constexpr double seam_step = 1e-4;
 
 /// A contact normal this near to a face's is the face's. Derived: a mesh of six digits turns its faces by some 1e-6.
 constexpr double same_face = 1e-4;
 
-/// [m] A point without its feature of the last step starts from the nearest one left within this. Chosen here, a tenth of
-/// the smallest rock. Higher: impulses start at the wrong place. Lower: a rolling rock starts from nothing.
+/// [m] A point without its feature of the last step starts from the nearest one left within this. Chosen here, a tenth
+/// of the smallest rock. Higher: impulses start at the wrong place. Lower: a rolling rock starts from nothing.
 constexpr double match_distance = 0.03;
 
 // Motion (world).

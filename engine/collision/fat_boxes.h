@@ -8,12 +8,12 @@
 /// The boxes of the broad phase: larger than the colliders by a slack, so that few of them are changed in a
 /// step.
 ///
-/// A box must hold its collider, grown by half of how near shapes must come to be searched and by its speculative margin.
-/// The motion bound rules out that a collider has left its box; it counts turns and detours in full, so those
-/// that it lets through are measured, and go on from the room that they have. A box that has been left gets
-/// twice the slack on the sides that were crossed: there the collider will go on. Larger boxes give more
-/// pairs to look at and lose no contact; a pair that is remembered for longer may keep another axis within
-/// the finder's hysteresis. Metres, world frame.
+/// A box must hold its collider, grown by half of how near shapes must come to be searched and by its speculative
+/// margin. The motion bound rules out that a collider has left its box; it counts turns and detours in full, so those
+/// that it lets through are measured, and go on from the room that they have. A box that has been left gets twice the
+/// slack on the sides that were crossed: there the collider will go on. Larger boxes give more pairs to look at and
+/// lose no contact; a pair that is remembered for longer may keep another axis within the finder's hysteresis. Metres,
+/// world frame.
 namespace drawpoint::engine::detail {
 
 class FatBoxes {

@@ -30,8 +30,8 @@ constexpr std::uint32_t feature_number(std::uint32_t group, int first, std::uint
   return group << 24 | (static_cast<std::uint32_t>(first) & 0xfff) << 12 | (second & 0xfff);
 }
 
-/// The points that were chosen last time. A body that rests on five points would rock if the choice of four followed each
-/// micrometre of their gaps: the one left out sinks until it is chosen again, for ever.
+/// The points that were chosen last time. A body that rests on five points would rock if the choice of four followed
+/// each micrometre of their gaps: the one left out sinks until it is chosen again, for ever.
 struct KeptPoints {
   std::array<std::uint32_t, 4> features{};
   int count = 0;

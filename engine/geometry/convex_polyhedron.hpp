@@ -11,10 +11,10 @@
 /// A polyhedron is the convex hull of its vertices. Its faces are planar polygons, counter-clockwise seen
 /// from outside; coplanar triangles are merged into one face and vertices inside a face or an edge are
 /// dropped, so that a box has 8 vertices and 6 faces. Two points nearer than the tolerance are one
-/// point, and corners nearer than that to a plane may lie in one face: 1e-5 of the extent, or 1e-3 of the least width where
-/// that is less. So meshes in single precision or text of six digits give the faces that were meant, and volume and inertia
-/// are off by no more than their rounding, or by the tolerance times the surface for what was finer.
-/// Any frame, metres. A polyhedron is an immutable value. Cost of hull_of: O(n log n) and, for the length, O(n²) in the
+/// point, and corners nearer than that to a plane may lie in one face: 1e-5 of the extent, or 1e-3 of the least width
+/// where that is less. So meshes in single precision or text of six digits give the faces that were meant, and volume
+/// and inertia are off by no more than their rounding, or by the tolerance times the surface for what was finer. Any
+/// frame, metres. A polyhedron is an immutable value. Cost of hull_of: O(n log n) and, for the length, O(n²) in the
 /// vertices; 5000 points on a sphere take about 50 ms.
 namespace drawpoint::engine {
 

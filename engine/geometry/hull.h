@@ -9,10 +9,10 @@
 /// Convex hull of points with what is one face merged into one.
 ///
 /// Meshes come as single precision or as text of six digits, so corners of one face are not quite in one plane. Points
-/// nearer than the tolerance (constants::hull_thickness of the extent, less for flat bodies) count as one. Qhull's facets,
-/// largest first, gather neighbours whose corners all lie within the tolerance of their plane (merged_faces.h); corners that
-/// are then within a face or along an edge are dropped. Where that would not close the surface the tolerance is a tenth,
-/// down to Qhull's own facets. The surface lies within the tolerance of the hull.
+/// nearer than the tolerance (constants::hull_thickness of the extent, less for flat bodies) count as one. Qhull's
+/// facets, largest first, gather neighbours whose corners all lie within the tolerance of their plane (merged_faces.h);
+/// corners that are then within a face or along an edge are dropped. Where that would not close the surface the
+/// tolerance is a tenth, down to Qhull's own facets. The surface lies within the tolerance of the hull.
 namespace drawpoint::engine::detail {
 
 struct Hull {

@@ -42,8 +42,8 @@ struct BoundQuery {
 /// ascending order into `found`, which has room for all; returns their number.
 int faces_over(const CollisionHull& hull, const Eigen::Vector3d& point, double least, HullBound* found);
 
-/// The same for edges and up to `most_points` points of the other shape: the most that the lowest of them lies over an edge,
-/// along directions between the normals of its two faces (separation_bounds.h).
+/// The same for edges and up to `most_points` points of the other shape: the most that the lowest of them lies over an
+/// edge, along directions between the normals of its two faces (separation_bounds.h).
 int edges_over(const CollisionHull& hull, std::span<const Eigen::Vector3d> points, double least,
                HullBound* found);
 

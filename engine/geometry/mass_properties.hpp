@@ -23,9 +23,10 @@ struct MassProperties {
 /// density [kg/m³]; throws std::invalid_argument unless it is positive and finite.
 MassProperties mass_properties(const ConvexPolyhedron& shape, double density);
 
-/// X_SP: the frame at the centre of mass along the principal axes. Where the shape's own axes are principal (products of
-/// inertia below 1e-9 of its moments) they are kept, so that a box stays as it stands. Else by rising moment of inertia,
-/// right-handed, the largest component of the first two axes positive; where moments are equal, their axes are any.
+/// X_SP: the frame at the centre of mass along the principal axes. Where the shape's own axes are principal (products
+/// of inertia below 1e-9 of its moments) they are kept, so that a box stays as it stands. Else by rising moment of
+/// inertia, right-handed, the largest component of the first two axes positive; where moments are equal, their axes are
+/// any.
 Eigen::Isometry3d principal_frame(const MassProperties& properties);
 
 }  // namespace drawpoint::engine

@@ -63,10 +63,10 @@ double fitted_slope(const std::vector<double>& x, const std::vector<double>& y) 
   return (n * sxy - sx * sy) / (n * sxx - sx * sx);
 }
 
-// Angle of slope [deg] from radii or depths `retreats` at the heights `levels`; NaN for fewer than three.
-double degrees_of(const std::vector<double>& levels, const std::vector<double>& retreats) {
+// Angle of slope [deg] from radii or depths `extents` at the heights `levels`; NaN for fewer than three.
+double degrees_of(const std::vector<double>& levels, const std::vector<double>& extents) {
   if (levels.size() < 3) return std::numeric_limits<double>::quiet_NaN();
-  return std::atan2(1.0, -fitted_slope(levels, retreats)) * 180 / M_PI;
+  return std::atan2(1.0, -fitted_slope(levels, extents)) * 180 / M_PI;
 }
 
 // About the origin and all rocks.

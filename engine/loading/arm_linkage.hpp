@@ -6,14 +6,14 @@
 
 /// The pins of the loader's arm in its middle plane, and the lever of its tilt cylinder about the bucket's hinge.
 ///
-/// Reference pose, bucket flat on the floor; x forward from the front axle, z up [m]. Boom: F on the frame, G the bucket's
-/// hinge, E the bell-crank's. Bell-crank: E, Q the tilt rod's pin, P the link's. Link: P, H on the bucket. The tilt barrel
-/// turns about T on the frame. An estimated, consistent Z-bar linkage: no manufacturer publishes its pins.
+/// Reference pose, bucket flat on the floor; x forward from the front axle, z up [m]. Boom: F on the frame, G the
+/// bucket's hinge, E the bell-crank's. Bell-crank: E, Q the tilt rod's pin, P the link's. Link: P, H on the bucket. The
+/// tilt barrel turns about T on the frame. An estimated, consistent Z-bar linkage: no manufacturer publishes its pins.
 ///
-/// Lever: with the boom held, the bucket's rate ω turns the bell-crank at ω_c through the link, (v_P − v_H)·(P − H) = 0, and
-/// the rod's pin moves along the cylinder by ℓ̇; by virtual work a push f of the cylinder turns the bucket about G with the
-/// moment f ℓ̇/ω, nose up. Weight and inertia of bell-crank and link are left out: some kN m of the hundreds of a bucket
-/// in rock.
+/// Lever: with the boom held, the bucket's rate ω turns the bell-crank at ω_c through the link, (v_P − v_H)·(P − H) =
+/// 0, and the rod's pin moves along the cylinder by ℓ̇; by virtual work a push f of the cylinder turns the bucket about
+/// G with the moment f ℓ̇/ω, nose up. Weight and inertia of bell-crank and link are left out: some kN m of the hundreds
+/// of a bucket in rock.
 namespace drawpoint::engine::loading {
 
 /// Height of the axles over the floor under the machine's own weight, as in the reference pose [m].
@@ -24,8 +24,8 @@ struct ArmLinkage {
       T{0.10, 1.68};
 };
 
-/// ℓ̇/ω [m] with the boom at elevation a of FG and the bucket turned by phi from its reference pose, both against the front
-/// unit [rad]. Finite wherever the linkage closes; not a number where it cannot.
+/// ℓ̇/ω [m] with the boom at elevation a of FG and the bucket turned by phi from its reference pose, both against the
+/// front unit [rad]. Finite wherever the linkage closes; not a number where it cannot.
 double tilt_lever(const ArmLinkage& linkage, double a, double phi);
 
 /// How the arm stands against the front unit.

@@ -8,8 +8,8 @@
 ///
 /// Engine, pumps and a torque converter as three numbers: the pumps take what the cylinders do over their
 /// efficiency, the rest reaches the wheels times the converter's and the axles'; near standstill the
-/// converter's own torque is the limit. Simplified: one efficiency for all speeds, no gears (first gear), no inertia of the
-/// engine, and a drive line that brakes no harder than it drives.
+/// converter's own torque is the limit. Simplified: one efficiency for all speeds, no gears (first gear), no inertia of
+/// the engine, and a drive line that brakes no harder than it drives.
 namespace drawpoint::engine::loading {
 
 struct DriveLine {

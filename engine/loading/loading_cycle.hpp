@@ -15,11 +15,12 @@
 /// Every cycle starts straight in front of the planned place: hauling, dumping and driving are left out. Its first and
 /// last parts, in which the machine drives alone, are not simulated but counted by the machine's own law: it begins at
 /// the pile's toe with the speed of its approach, and ends in backing out when the bucket is clear with what it carries
-/// (Site::bucket_is_clear). From when it backs out rock comes down the raise, until the drift holds its first mass again or
-/// the raise is blocked; what is missing then comes while the machine digs. The next cycle begins when the pile stands,
-/// though single rocks may still roll. With Scenario::whole_cycle all of it is simulated, standing for a second before it is weighed, and rest for
-/// PileOptions::rest. What the bucket carries is weighed and taken away, spilled rocks stay where they lie. Rocks that
-/// lie on the rest of the machine, or where it must stand, are taken away and logged (`cleared_mass`).
+/// (Site::bucket_is_clear). From when it backs out rock comes down the raise, until the drift holds its first mass
+/// again or the raise is blocked; what is missing then comes while the machine digs. The next cycle begins when the
+/// pile stands, though single rocks may still roll. With Scenario::whole_cycle all of it is simulated, standing for a
+/// second before it is weighed, and rest for PileOptions::rest. What the bucket carries is weighed and taken away,
+/// spilled rocks stay where they lie. Rocks that lie on the rest of the machine, or where it must stand, are taken away
+/// and logged (`cleared_mass`).
 ///
 /// A step whose contact solution breaks down is done again in ten parts (`repeated_steps`), a rock that left
 /// the drift is taken away (`escaped_mass`), and a cycle that breaks down all the same is lost

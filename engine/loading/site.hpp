@@ -41,8 +41,8 @@ class Site {
   double remove(const std::vector<int>& rocks);         ///< returns their mass [kg]
   double mass_of(const std::vector<int>& rocks) const;  ///< present or not [kg]
 
-  /// Whether the bucket has left the pile with what it carries: neither it, nor the arm, nor its load touches the ground
-  /// or a rock that is not load, and the load moves with it, to 0.25 m/s.
+  /// Whether the bucket has left the pile with what it carries: neither it, nor the arm, nor its load touches the
+  /// ground or a rock that is not load, and the load moves with it, to 0.25 m/s.
   bool bucket_is_clear() const;
 
   /// tip_x, or as far back as keeps the bucket at lateral place y clear of rocks lying in its way, but not behind

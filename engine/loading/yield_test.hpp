@@ -10,11 +10,11 @@
 /// The machine stands on a level floor with its bucket's edge on it, as at the start of a cycle, a rock that
 /// nothing moves stands in its way; it gains its drive-in speed as in a cycle, if the run-up is long enough, and
 /// drives into the rock, wheels and cylinders holding what they are set to. τ_y is the largest magnitude of the
-/// whole torque in hinge G from the first touch on, the tilt drive's moment about the pin included, as in joint_damage. What
-/// twists the bucket, F · y for a push F at y from the middle, grows with `offset`. The peak of a
-/// nearly rigid impact grows with stiffness and as 1/Δt: a figure belongs to the settings that it was found with; the
-/// low-pass of joint_damage takes most of that away. Cost: some seconds of machine without a pile, about 0.1 s of processor
-/// time each. Deterministic. Source: Lindmark 2016, 145 kN m; place and size of the rock are not given there and are chosen
+/// whole torque in hinge G from the first touch on, the tilt drive's moment about the pin included, as in joint_damage.
+/// What twists the bucket, F · y for a push F at y from the middle, grows with `offset`. The peak of a nearly rigid
+/// impact grows with stiffness and as 1/Δt: a figure belongs to the settings that it was found with; the low-pass of
+/// joint_damage takes most of that away. Cost: some seconds of machine without a pile, about 0.1 s of processor time
+/// each. Deterministic. Source: Lindmark 2016, 145 kN m; place and size of the rock are not given there and are chosen
 /// here.
 namespace drawpoint::engine::loading {
 

@@ -7,10 +7,11 @@
 
 /// Puts a Simbody state's coordinates on to its loops, in Eigen's arithmetic alone.
 ///
-/// Newton's method on the loop errors e(q): each step moves the joints by the least δu, in the measure of the mass matrix,
-/// with P δu = −e; quaternions are brought back to unit length. Redundant loops and singular poses are met by the
-/// pseudo-inverse. No joint is moved by more than 0.5 rad or m in all, so that a linkage keeps the way in which it closes.
-/// Simbody's own projection does as much through LAPACK, whose last bits depend on which library the system has chosen.
+/// Newton's method on the loop errors e(q): each step moves the joints by the least δu, in the measure of the mass
+/// matrix, with P δu = −e; quaternions are brought back to unit length. Redundant loops and singular poses are met by
+/// the pseudo-inverse. No joint is moved by more than 0.5 rad or m in all, so that a linkage keeps the way in which it
+/// closes. Simbody's own projection does as much through LAPACK, whose last bits depend on which library the system has
+/// chosen.
 namespace drawpoint::engine::machine {
 
 struct LoopTolerance {

@@ -9,10 +9,10 @@
 /// A machine's own rows in the solve: velocity motors with force limits and joint stops.
 ///
 /// Motor of k joints: (J₁ + … + J_k) w⁺ = k · set speed with −h · reverse limit ≤ λ ≤ h · limit, λ the
-/// impulse on each. Stop of k joints, one row for each end, as a fast joint may meet either: with the distance g left to
-/// it (mean over the joints) and the direction s in which it pushes, s (J₁ + … + J_k) w⁺ ≥ −k g/h, λ the impulse on each;
-/// past the end (g < 0) it asks for k |g|/5h back, so that an overrun is taken out over some five steps and
-/// the load is not thrown. First order in h.
+/// impulse on each. Stop of k joints, one row for each end, as a fast joint may meet either: with the distance g left
+/// to it (mean over the joints) and the direction s in which it pushes, s (J₁ + … + J_k) w⁺ ≥ −k g/h, λ the impulse on
+/// each; past the end (g < 0) it asks for k |g|/5h back, so that an overrun is taken out over some five steps and the
+/// load is not thrown. First order in h.
 namespace drawpoint::engine::machine {
 
 struct StopSide {

@@ -12,11 +12,11 @@
 /// The step h is cut into S substeps of h/S. In each, with the relative velocity u = v_B − v_A at a point
 /// with frame (n, t1, t2) and the impulses λ of the substep,
 ///     0 ≤ λ_n ⊥ u_n − min(b − Σ λ_n, c) ≥ 0,   |λ_t| ≤ μ λ_n,  u_t = −s λ_t with s ≥ 0, s = 0 inside the cone,
-/// where Σ and b follow from the gap by the contact law (contact_law.hpp), c = push_out_speed; for every pair a moment m resists
-/// rolling, |m_t| ≤ μ_r R* Σ λ_n, and spinning, |m_n| ≤ μ_s R* Σ λ_n, with the same rule on the relative
-/// angular velocity. Frames and arms are those of the step's start; gaps follow the motion linearly. The
-/// problem knows neither where contacts come from nor what the machine is made of, so it can be solved,
-/// written to a file and benchmarked alone. World axes, SI; impulses in N s.
+/// where Σ and b follow from the gap by the contact law (contact_law.hpp), c = push_out_speed; for every pair a moment
+/// m resists rolling, |m_t| ≤ μ_r R* Σ λ_n, and spinning, |m_n| ≤ μ_s R* Σ λ_n, with the same rule on the relative
+/// angular velocity. Frames and arms are those of the step's start; gaps follow the motion linearly. The problem knows
+/// neither where contacts come from nor what the machine is made of, so it can be solved, written to a file and
+/// benchmarked alone. World axes, SI; impulses in N s.
 namespace drawpoint::engine {
 
 /// A rigid body during the step. The fixed world is a body of zero inverse mass.

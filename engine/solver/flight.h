@@ -7,8 +7,8 @@
 
 /// Bodies that no contact pushed in a step: they fly a parabola, exactly.
 ///
-/// Substeps would add the outer forces' share before each of them and move the body by v t + a t²/2 (1 + 1/S): in the mean of a
-/// flight nothing, but a ball that bounces would fall with other energy than it rises.
+/// Substeps would add the outer forces' share before each of them and move the body by v t + a t²/2 (1 + 1/S): in the
+/// mean of a flight nothing, but a ball that bounces would fall with other energy than it rises.
 namespace drawpoint::engine::detail {
 
 /// By body: whether a contact's impulse or moment acts on it.

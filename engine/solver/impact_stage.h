@@ -12,10 +12,11 @@
 /// that touch (within 1e-6 m) or close within the step then take impulses with 0 ≤ λ_n ⊥ u_n⁺ + e' u_n⁻ ≥ 0
 /// and friction, e' = e for impacts and 0 for the rest: Newton's law, all impacts at once, neither compliance
 /// nor outer forces. Three balls in a row so share the impact at once, (−1/3, 2/3, 2/3) v for e = 1, where
-/// real cradles pass it on. An impact comes early by up to a step, first order in h. With friction Newton's law may add energy
-/// to an oblique impact (T. Kane): where it would, e' of all impacts that are joined by bodies which can move is scaled by the
-/// largest factor, to 1e-3, at which they add none. There is one: at 0 each impulse works against its contact's
-/// velocity. Solved by sequential iterations to a relative change of 1e-12, at most 10 000; costs nothing where every e is 0.
+/// real cradles pass it on. An impact comes early by up to a step, first order in h. With friction Newton's law may add
+/// energy to an oblique impact (T. Kane): where it would, e' of all impacts that are joined by bodies which can move is
+/// scaled by the largest factor, to 1e-3, at which they add none. There is one: at 0 each impulse works against its
+/// contact's velocity. Solved by sequential iterations to a relative change of 1e-12, at most 10 000; costs nothing
+/// where every e is 0.
 namespace drawpoint::engine::detail {
 
 class ImpactStage {

@@ -15,7 +15,8 @@
 /// twice the iterations, and momentum on top of them diverges. Figures: docs/measurements/contact-solving.md.
 namespace drawpoint::engine::detail {
 
-/// Whether the iteration, counted from 0 in its substep, stores what it starts from: the first, and those with momentum.
+/// Whether the iteration, counted from 0 in its substep, stores what it starts from: the first, and those with
+/// momentum.
 inline bool remembers(int iteration) {
   return iteration == 0 || (iteration % 2 == 1 && iteration < constants::momentum_iterations);
 }

@@ -46,7 +46,8 @@ class SuperBodyMotion {
   double moved();
   /// Adds the substep's displacement and impulses to the step's.
   void finish();
-  /// Whether no part is faster than that at its origin [m/s, rad/s], before and after the substep; without a machine true.
+  /// Whether no part is faster than that at its origin [m/s, rad/s], before and after the substep; without a machine
+  /// true.
   bool stands(double speed) const { return slower(begin_, speed) && slower(w_, speed); }
   /// finish() so many times.
   void repeat(int substeps);

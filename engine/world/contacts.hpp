@@ -4,8 +4,8 @@
 
 #include <drawpoint/engine/base/eigen.hpp>
 
-/// What can be asked about the surfaces of a world: whose they are, what they press on each other, where a ray meets them.
-/// World frame, SI units.
+/// What can be asked about the surfaces of a world: whose they are, what they press on each other, where a ray meets
+/// them. World frame, SI units.
 namespace drawpoint::engine {
 
 enum class Owner { fixed, rock, part };

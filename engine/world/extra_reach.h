@@ -8,7 +8,8 @@
 #include <limits>
 #include <vector>
 
-/// How much farther around rocks and machine parts contacts are looked for than their velocities say, within the present step.
+/// How much farther around rocks and machine parts contacts are looked for than their velocities say, within the
+/// present step.
 ///
 /// Contacts are looked for as far as the velocities before the step carry. An impact within the step may
 /// carry a rock elsewhere: through what it was not near, or out of step with one that flies along with it. So
@@ -18,8 +19,8 @@
 /// entered: the way out is the way it came in, and the next step takes it. Each round at least doubles a
 /// reach, and no displacement is without bound, so the rounds end; a rock struck against a plate takes one. A
 /// rock of 0.3 m in a step of 0.01 s needs a change of some 10 m/s, as after a fall of 5 m: a pile gives
-/// none. A part of a machine, which its motors may start or stop within a step, has r of its thinnest shape: of its surface from
-/// its middle. Cost: some ns per rock; a round costs a search and a solve.
+/// none. A part of a machine, which its motors may start or stop within a step, has r of its thinnest shape: of its
+/// surface from its middle. Cost: some ns per rock; a round costs a search and a solve.
 namespace drawpoint::engine::detail {
 
 class ExtraReach {

@@ -34,8 +34,8 @@ struct Material {
   NormalLaw law = NormalLaw::linear;
 };
 
-/// Symmetric table of pairs of surface kinds 0 .. kinds-1. A world refuses a surface that can touch another one with which
-/// its kind has no entry.
+/// Symmetric table of pairs of surface kinds 0 .. kinds-1. A world refuses a surface that can touch another one with
+/// which its kind has no entry.
 class MaterialTable {
  public:
   /// Both throw std::invalid_argument: for fewer than one kind; for a kind that is not in the table.

@@ -14,11 +14,10 @@
 
 /// What a world remembers of each pair of colliders: the impulses of the step that solved it last.
 ///
-/// A pair's slot is the one that the contact finder gave it (Manifold::slot), so nothing is looked up and nothing merged.
-/// A pair that was solved in the last step starts the next one from its impulses, so that a resting pile
-/// starts from its own load; the slot of any other is free for the next pair that the finder puts there. A
-/// point of the next step takes the impulse of the point with its feature, else of the nearest one left
-/// within constants::match_distance.
+/// A pair's slot is the one that the contact finder gave it (Manifold::slot), so nothing is looked up and nothing
+/// merged. A pair that was solved in the last step starts the next one from its impulses, so that a resting pile starts
+/// from its own load; the slot of any other is free for the next pair that the finder puts there. A point of the next
+/// step takes the impulse of the point with its feature, else of the nearest one left within constants::match_distance.
 namespace drawpoint::engine::detail {
 
 struct PairMemoryPoint {
@@ -57,8 +56,8 @@ class PairMemory {
       detail::prefetch(&pairs_[static_cast<std::size_t>(slot)], sizeof(RememberedPair));
   }
 
-  /// Stores a solved problem, whose pair k has slot slots[k]: begin_step(), then store() of every k, in any order and by
-  /// several threads. `most` is the number of slots.
+  /// Stores a solved problem, whose pair k has slot slots[k]: begin_step(), then store() of every k, in any order and
+  /// by several threads. `most` is the number of slots.
   void begin_step(const std::vector<int>& slots, int most);
   void store(const ContactProblem& problem, int k);
 

@@ -22,9 +22,9 @@
 /// Rocks, fixed surroundings and at most one machine, stepped together: nonsmooth DEM with fixed steps of h.
 ///
 /// A step: find contacts at q; v* = v + h f/m; solve all impulses (rocks and machine in one problem); q⁺ = q
-/// + h v⁺, and for rocks that nothing pushes q + h (v + v⁺)/2, a parabola. Rocks turn by the exponential map and keep their angular momentum through the turn, so free
-/// rotation conserves it to round-off, and its energy but for a swing of O(h²) (free_rotation.h). First order
-/// in h. World frame: x toward the back wall, z up.
+/// + h v⁺, and for rocks that nothing pushes q + h (v + v⁺)/2, a parabola. Rocks turn by the exponential map and keep
+/// their angular momentum through the turn, so free rotation conserves it to round-off, and its energy but for a swing
+/// of O(h²) (free_rotation.h). First order in h. World frame: x toward the back wall, z up.
 ///
 /// Deterministic: the same calls give the same bits. Not thread-safe. Cost: linear in contacts.
 namespace drawpoint::engine {
@@ -66,8 +66,8 @@ class World {
   /// Contact force and moment on a rock about its centre, on a machine part about its origin: means of the last step.
   Wrench rock_wrench(int rock) const;
   Wrench part_wrench(int part) const;
-  /// The first surface within `most` [m] on the ray, whose direction must be a unit vector; shapes that the origin is in are
-  /// not hit. Cost: linear in the bodies, 30 ns for a rock that the ray passes by.
+  /// The first surface within `most` [m] on the ray, whose direction must be a unit vector; shapes that the origin is
+  /// in are not hit. Cost: linear in the bodies, 30 ns for a rock that the ray passes by.
   std::optional<RayHit> cast_ray(const Ray& ray, double most = 1e3) const;
 
   /// All that later steps depend on, as bytes: rocks, machine, time, remembered contacts and impulses. The

@@ -7,18 +7,19 @@
 /// The default fit expects some noise (detail/prior.hpp), or pure noise would pass for signal. Of a response that is
 /// rough for its runs it then takes the roughness for noise, and its intervals are far too narrow. The likelihood
 /// tells the two apart, where it does. The runs are taken for exact where
-/// * without noise, the prior of length scales kept, they are likelier by more than least_gain in ln L: noise of a few
-///   per cent that is really there makes exact runs unlikelier, by 5 to 60 for 40 to 120 runs of smooth functions;
-/// * without noise they are likelier than noise about the trend alone, by more than one data set of a thousand of such
-///   noise would have it: half of the 99.9 % quantile of χ² with a degree for each parameter of the correlation;
-/// * they are predicted without themselves at least as well, by shares of the box (box_shares.hpp): of designs with many
-///   corners the likeliest fit is now and then a poor one (choice.hpp);
+/// * without noise, the prior of length scales kept, they are likelier by more than least_gain in ln L: noise of a
+///   few per cent that is really there makes exact runs unlikelier, by 5 to 60 for 40 to 120 runs of smooth
+///   functions;
+/// * without noise they are likelier than noise about the trend alone, by more than one data set of a thousand of
+///   such noise would have it: half of the 99.9 % quantile of χ² with a degree for each parameter of the correlation;
+/// * they are predicted without themselves at least as well, by shares of the box (box_shares.hpp): of designs with
+///   many corners the likeliest fit is now and then a poor one (choice.hpp);
 /// * runs of the noisy model would not gain as much (simulated_gains.hpp), unless the gain is above sure_gain, three
 ///   times what noisy runs ever gained.
-/// Three of 1152 sets of noisy runs are taken for exact (docs/measurements/kriging.md), with 0.76 to 1.13 of the error;
-/// where a response is rough for its runs noise of a third of its deviation mostly is.
-/// Cost: two searches from few starts where the default finds noise, a whole one where these come near, and up to two for
-/// each of sixteen simulated sets where only the last is left.
+/// Three of 1152 sets of noisy runs are taken for exact (docs/measurements/kriging.md), with 0.76 to 1.13 of the
+/// error; where a response is rough for its runs noise of a third of its deviation mostly is.
+/// Cost: two searches from few starts where the default finds noise, a whole one where these come near, and up to two
+/// for each of sixteen simulated sets where only the last is left.
 
 #include <cmath>
 #include <drawpoint/kriging/detail/box_shares.hpp>
@@ -69,10 +70,11 @@ inline bool predicts_as_well(const Model& exact, const Model& noisy) {
 /// The model with a sentence of its choice.
 inline Model said_exact(const Model& exact, const Model& noisy, double gain) {
   ModelState state = exact.state();
-  state.report.message += "; the model meets the runs, which are e^" + text(std::round(10.0 * gain) / 10.0) +
-                          " times as likely without noise as with noise of " +
-                          text(std::sqrt(noisy.noise_variance())) +
-                          ": repeat a run if the simulator may have some";
+  const std::string part = state.X.rows() > many ? ", by " + std::to_string(many) + " of them," : "";
+  state.report.message +=
+      "; the model meets the runs, which are" + part + " e^" + text(std::round(10.0 * gain) / 10.0) +
+      " times as likely without noise as with noise of " + text(std::sqrt(noisy.noise_variance())) +
+      ": repeat a run if the simulator may have some";
   return Model(std::move(state));
 }
 

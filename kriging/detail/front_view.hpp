@@ -33,9 +33,10 @@ inline std::vector<Eigen::Index> front_rows(const Eigen::MatrixXd& Y, const std:
 }
 
 /// The point lies as far beyond the front, rows of Y, as that is long, but no farther than the worst of all runs: early
-/// fronts are short, and what would make them longer is worth something, while places that are far from the front are worth nothing. Two or
-/// three runs may lie at nearly one value of an objective: their front counts as a tenth of the extent of all runs at
-/// least, and one without extent as all of it. Where the worst run ends the front, a tenth of all runs' extent beyond.
+/// fronts are short, and what would make them longer is worth something, while places that are far from the front are
+/// worth nothing. Two or three runs may lie at nearly one value of an objective: their front counts as a tenth of the
+/// extent of all runs at least, and one without extent as all of it. Where the worst run ends the front, a tenth of all
+/// runs' extent beyond.
 inline Eigen::VectorXd reference_beyond(const Eigen::MatrixXd& Y, const std::vector<Eigen::Index>& front) {
   Eigen::VectorXd reference(Y.cols());
   for (Eigen::Index k = 0; k < Y.cols(); ++k) {

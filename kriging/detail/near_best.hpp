@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-/// A region around the best run, for a search with fewer than ten runs per variable (trust region; Eriksson, Pearce,
-/// Gardner, Turner, Poloczek 2019).
+/// A region around the best run, for a search with fewer than ten runs per variable (trust region; Eriksson,
+/// Pearce, Gardner, Turner, Poloczek 2019).
 ///
 /// A model that meets the runs of a rugged response swings between them and expects most far from all, in corners or
-/// gaps. Half the side of the region is 0.3 of each range, and 0.6 times as much for every six runs since the best one
-/// was made.
+/// gaps. Half the side of the region is 0.3 of each range, and 0.6 times as much for every six runs since the best
+/// one was made.
 
 #include <Eigen/Core>
 #include <algorithm>

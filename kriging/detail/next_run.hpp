@@ -7,9 +7,9 @@
 /// Two runs of three go where most improvement is expected, times the probability of keeping all limits and of
 /// success: expected improvement of one objective, its knowledge gradient where runs are noisy and nothing is
 /// limited, hypervolume improvement of several objectives. The third goes where the models expect the best, as
-/// does each of the last two. Up to ten runs per variable of one exact objective alone, the second of the three, and the
-/// first too once the best run is old, is chosen near that run (near_best.hpp). While no run keeps all limits, their
-/// probability alone counts. Candidates are random points of the box and of the neighbourhood of the best runs;
+/// does each of the last two. Up to ten runs per variable of one exact objective alone, the second of the three, and
+/// the first too once the best run is old, is chosen near that run (near_best.hpp). While no run keeps all limits,
+/// their probability alone counts. Candidates are random points of the box and of the neighbourhood of the best runs;
 /// doe::propose climbs from the best.
 
 #include <Eigen/Core>

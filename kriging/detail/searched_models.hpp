@@ -49,8 +49,8 @@ inline const doe::Response& response_of(const doe::Problem& problem, std::string
   return problem.responses[static_cast<std::size_t>(doe::response_index(problem, name))];
 }
 
-/// Options for response `name` of runs in the box of their problem. A run is weighed by its own standard error where the
-/// problem has its degrees of freedom, moderated by those of all.
+/// Options for response `name` of runs in the box of their problem. A run is weighed by its own standard error where
+/// the problem has its degrees of freedom, moderated by those of all.
 inline FitOptions search_fit_options(const doe::Evaluations& runs, std::string_view name, bool exact) {
   FitOptions options;
   options.lower = doe::lower_bounds(runs.problem);

@@ -4,10 +4,10 @@
 
 /// What runs gain in likelihood when they are taken for exact, and what chance gives (Cox 1961, by simulation).
 ///
-/// A model without noise has as many length scales as there are variables to fit chance with: in seven variables noise
-/// about a linear trend gains up to 15 in ln L by the likeliest of them, 9 where length scales are expected as in
-/// prior.hpp, and a smooth response with noise loses 10 to 30. So what real runs gain is held against sets of runs that
-/// the noisy model makes: it counts where it is more than any set gains, by clear_lead.
+/// A model without noise has as many length scales as there are variables to fit chance with: in seven variables
+/// noise about a linear trend gains up to 15 in ln L by the likeliest of them, 9 where length scales are expected as
+/// in prior.hpp, and a smooth response with noise loses 10 to 30. So what real runs gain is held against sets of runs
+/// that the noisy model makes: it counts where it is more than any set gains, by clear_lead.
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -52,10 +52,10 @@ inline TrainingData simulated(const ModelState& model, const TrainingData& data,
   return made;
 }
 
-/// Whether a gain is more than chance gives to runs of the noisy model. The sets end with the first that gains as much.
+/// Whether a gain is more than chance gives to runs of the noisy model. The first set that gains as much ends it.
 inline bool beyond_chance(double gain, const ModelState& noisy, const TrainingData& data,
                           const FitOptions& without, const FitOptions& with) {
-  doe::RandomStream stream(with.seed);
+  doe::RandomStream stream(doe::run_seed(with.seed, 0, 5));  // not the one that a user may draw noise from
   for (int k = 0; k < simulated_sets; ++k)
     if (!(gain_of(simulated(noisy, data, stream), without, with) + clear_lead < gain)) return false;
   return true;

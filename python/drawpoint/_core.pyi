@@ -27,6 +27,7 @@ class Problem:
     def responses(self) -> list[str]: ...
 
 class FitOptions:
+    may_be_exact: bool
     levels: list[int]
     starts: int
     seed: int

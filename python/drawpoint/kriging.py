@@ -59,7 +59,8 @@ class Kriging:
     ----------
     correlation : "gaussian", "power_exponential", "matern32" or "matern52".
     trend : "constant", "linear", "quadratic" or "blind" (terms chosen by the runs).
-    deterministic : True: the simulator has no noise, and the model meets the runs.
+    deterministic : True: the simulator has no noise, and the model meets the runs. False: it has some. None: the
+        runs tell, where they are clearly likelier without any.
     noise_kind : what `noise` of fit() is: "known", the variance of each run; "pooled", estimates of one variance;
         "proportional", variances up to a factor.
     structure : "product"; "isotropic", one theta for all inputs; "additive", a sum of functions of one input.
@@ -86,7 +87,7 @@ class Kriging:
         *,
         correlation: str = "gaussian",
         trend: str = "constant",
-        deterministic: bool = False,
+        deterministic: Optional[bool] = None,
         noise_kind: str = "known",
         structure: str = "product",
         estimation: str = "penalized_likelihood",
@@ -262,6 +263,7 @@ class Kriging:
             options.set_noise(self.noise_kind, noise)
         elif self.deterministic:
             options.set_noise("none", np.empty(0))
+        options.may_be_exact = self.deterministic is None
         if self.lower is not None or self.upper is not None:
             box = [np.asarray([] if bound is None else bound, dtype=float) for bound in (self.lower, self.upper)]
             options.set_box(*box)

@@ -3,8 +3,8 @@
 #pragma once
 /// What the loading study adds to a study: the settled pile that all runs share, and the figures of one run.
 ///
-/// Figures of a cycle: planned and actual tip path over the pile's contour, the pile from above, the scene to play and turn, drive
-/// forces and the torque that twists hinge G over time, the rock in the bucket; and a table of the cycles.
+/// Figures of a cycle: planned and actual tip path over the pile's contour, the pile from above, the scene to play and
+/// turn, drive forces and the torque that twists hinge G over time, the rock in the bucket; and a table of the cycles.
 /// Read from the run log alone.
 
 #include <drawpoint/engine/loading/scenario.hpp>

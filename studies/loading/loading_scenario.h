@@ -18,8 +18,8 @@ namespace drawpoint::studies {
 
 std::vector<StudyOption> loading_options();
 
-/// All that Lindmark (2016) prints: materials with solver, scale with a choked raise, speeds, motors in the hinges, planner
-/// and executor, and the three responses by its own definitions.
+/// All that Lindmark (2016) prints: materials with solver, scale with a choked raise, speeds, motors in the hinges,
+/// planner and executor, and the three responses by its own definitions.
 Preset lindmark2016_preset();
 
 /// Study::options_complaint: of a precision with so few cycles that none can be left out, of a pile below a

@@ -27,8 +27,8 @@ struct LoadingStudy {
   std::function<doe::Outcome(const engine::loading::LoadingLog& log, const OptionValues& options)> responses;
 };
 
-/// Prepares the pile, simulates, and draws figures, replay and headlines as lhd_loading does. A run that did not complete
-/// is a failure.
+/// Prepares the pile, simulates, and draws figures, replay and headlines as lhd_loading does. A run that did not
+/// complete is a failure.
 Study study_of(const LoadingStudy& loading);
 
 /// loading_options() without some, which a study sets itself.

@@ -3,9 +3,9 @@
 #pragma once
 /// Strategies with other hauls, from the cycles of the runs that there are (haul_choice.h).
 ///
-/// Mean load and mean time of a cycle are fitted to the training runs as responses are (fits/models.h). Held against each
-/// other are the recommended strategy, the one with the highest rate on the front, the one whose cycles load most, the
-/// reference and the marks; of those in one place the first.
+/// Mean load and mean time of a cycle are fitted to the training runs as responses are (fits/models.h). Held against
+/// each other are the recommended strategy, the one with the highest rate on the front, the one whose cycles load most,
+/// the reference and the marks; of those in one place the first.
 
 #include <drawpoint/studies/model/modelled_study.h>
 

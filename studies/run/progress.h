@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Progress of a number of runs, or of other things: on a terminal one line that is rewritten, elsewhere a plain line now and
-/// then. The time left assumes that the runs to come take as long as those of this session.
+/// Progress of a number of runs, or of other things: on a terminal one line that is rewritten, elsewhere a plain line
+/// now and then. The time left assumes that the runs to come take as long as those of this session.
 
 #include <chrono>
 #include <string>

@@ -4,8 +4,8 @@
 /// Whether the simulator is the one that made a folder's runs, tried on one of them.
 ///
 /// A fingerprint of files does not see a changed library, module or machine. So before a folder gets more runs,
-/// one that is done is made again, where runs are made now, and compared bit by bit. With each resume it is another one,
-/// of the half that took least time.
+/// one that is done is made again, where runs are made now, and compared bit by bit. With each resume it is another
+/// one, of the half that took least time.
 
 #include <drawpoint/studies/run/settings.h>
 #include <drawpoint/studies/run/store/folder.h>

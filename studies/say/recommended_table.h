@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// The strategy that the report recommends (model/recommendation.h) as a table: what many runs there give in the mean, what
-/// one run gives, and the gain against a reference, in all objectives and limits.
+/// The strategy that the report recommends (model/recommendation.h) as a table: what many runs there give in the mean,
+/// what one run gives, and the gain against a reference, in all objectives and limits.
 ///
-/// Intervals hold 95 %, by draws of the models. Simplified: the choice among points is not in them; they are too short by
-/// what it exploits.
+/// Intervals hold 95 %, by draws of the models. Simplified: the choice among points is not in them; they are too short
+/// by what it exploits.
 
 #include <drawpoint/studies/model/recommended.h>
 #include <drawpoint/studies/say/page/report.h>

@@ -52,11 +52,11 @@ struct Summary {
 
 /// {"study", "runs", "training", "adaptive", "confirmation", "validation", "failed", "left_out", "unfinished",
 /// "adaptive_wanted", "until" and "until_met", "stopped" and "go_on" where there is something to say, "answer":
-/// sentences, "recommended": {variable: value} or null, "headlines": {name: number or null}, "findings": {id: verdict}, "nrmse": {response:
-/// number or null}, "mean_error": {response: mean_error_json}, "flat": [{"response", "text"}], "front",
-/// "confirmed": {"points", "values", "within", "failed", "dominated", "breaking", "agree": of the last round},
-/// "certified": number or null, "polishing_gain_percent": number or null, "report": path or null}, and
-/// "not_polished" and "error", which say why, if there is something to say. `runs` counts those that ended.
+/// sentences, "recommended": {variable: value} or null, "headlines": {name: number or null}, "findings": {id: verdict},
+/// "nrmse": {response: number or null}, "mean_error": {response: mean_error_json}, "flat": [{"response", "text"}],
+/// "front", "confirmed": {"points", "values", "within", "failed", "dominated", "breaking", "agree": of the last round},
+/// "certified": number or null, "polishing_gain_percent": number or null, "report": path or null}, and "not_polished"
+/// and "error", which say why, if there is something to say. `runs` counts those that ended.
 std::string json_line(const Summary& summary);
 
 /// {"rmse", "lower", "upper", "nrmse", "nrmse_lower", "nrmse_upper", "noise"}: numbers or null, the first three

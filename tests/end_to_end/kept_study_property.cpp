@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-/// The study that is kept in studies/results, read as docs/tutorials/a-study-read.md does: what the page shows is what its
-/// commands print.
+/// The study that is kept in studies/results, read as docs/tutorials/a-study-read.md does: what the page shows is what
+/// its commands print.
 
 #include <drawpoint/tests/end_to_end/documents.hpp>
 

@@ -3,12 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <drawpoint/tests/house/sources.hpp>
 #include <map>
 #include <regex>
 #include <set>
+#include <sstream>
 
 using namespace drawpoint::house;
 
@@ -32,6 +34,23 @@ std::vector<std::string> headers_without_guard(const std::vector<Source>& all) {
   for (const Source& source : all) {
     if (source.path.ends_with(".hpp") && source.text.find("\n#pragma once\n") == std::string::npos) {
       found.push_back(source.path);
+    }
+  }
+  return found;
+}
+
+/// Lines of more characters than fit, as "path:line".
+std::vector<std::string> wide_lines(const std::vector<Source>& all) {
+  constexpr std::ptrdiff_t most = 120;
+  std::vector<std::string> found;
+  for (const Source& source : all) {
+    std::istringstream lines(source.text);
+    std::string line;
+    for (int number = 1; std::getline(lines, line); ++number) {
+      const bool raw = line.find("R\"") != std::string::npos;
+      const auto characters =
+          std::count_if(line.begin(), line.end(), [](unsigned char c) { return (c & 0xC0) != 0x80; });
+      if (characters > most && !raw) found.push_back(source.path + ":" + std::to_string(number));
     }
   }
   return found;
@@ -128,6 +147,12 @@ TEST(Layout, EverySourceOpensWithItsLicence) {
   EXPECT_TRUE(headers_without_guard(all).empty()) << joined(headers_without_guard(all));
 }
 
+TEST(Layout, NoLineIsWiderThanAPage) {
+  const std::vector<Source> all =
+      sources(root, {"doe", "kriging", "pareto", "python", "engine", "studies", "tests", "benchmarks"});
+  EXPECT_TRUE(wide_lines(all).empty()) << joined(wide_lines(all));
+}
+
 TEST(Layout, TheTopLevelIsFixed) {
   const std::set<std::string> entries = top_level();
   EXPECT_TRUE(entries.count("CMakeLists.txt"));
@@ -150,5 +175,7 @@ TEST(Layout, TheChecksFindWhatIsWrong) {
             std::vector<std::string>{"a.cpp"});
   EXPECT_EQ(headers_without_guard({{"a.hpp", licence_lines}, {"b.cpp", licence_lines}}),
             std::vector<std::string>{"a.hpp"});
+  EXPECT_EQ(wide_lines({{"a.hpp", std::string(120, 'x') + "\n" + std::string(121, 'x')}}),
+            std::vector<std::string>{"a.hpp:2"});
   EXPECT_EQ(strangers({"doe", "notes.txt"}), std::vector<std::string>{"notes.txt"});
 }

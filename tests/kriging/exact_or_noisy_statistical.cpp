@@ -123,9 +123,9 @@ TEST(ExactRuns, AreNotSeenInNoise) {
   }
 }
 
-// Noise about a trend that the fit has too and about a signal beyond it: of the noise length scales of an exact model can
-// fit chance. Sets of runs in units from 1e-8 to 1e8. By likelihood alone 3 of 48 passed; about one of a hundred does now,
-// so that more than two of 48 do in 1.2 % of all draws of them.
+// Noise about a trend that the fit has too and about a signal beyond it: of the noise length scales of an exact model
+// can fit chance. Sets of runs in units from 1e-8 to 1e8. By likelihood alone 3 of 48 passed; about one of a hundred
+// does now, so that more than two of 48 do in 1.2 % of all draws of them.
 TEST(ExactRuns, AreNotSeenInNoiseAboutATrend) {
   FitOptions options;
   options.trend = Trend::linear;

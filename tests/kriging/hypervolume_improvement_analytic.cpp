@@ -186,8 +186,8 @@ TEST(ExpectedHypervolumeImprovement, IsZeroAtTheRuns) {
             probability_of_feasibility(problem, models)(X));
 }
 
-// By hand: rows 0 to 2 are the front, row 3 is dominated, row 4 repeats row 0. The front is 3 long in both objectives; the
-// worst run lies 1 beyond it in the first and 6 in the second. In any unit.
+// By hand: rows 0 to 2 are the front, row 3 is dominated, row 4 repeats row 0. The front is 3 long in both objectives;
+// the worst run lies 1 beyond it in the first and 6 in the second. In any unit.
 TEST(FrontView, ReachesAsFarBeyondTheFrontAsThatIsLong) {
   const MatrixXd Y = (MatrixXd(5, 2) << 0, 4, 1, 2, 3, 1, 4, 10, 0, 4).finished();
   for (const double unit : {1e-12, 1.0, 1e12}) {

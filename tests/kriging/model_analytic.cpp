@@ -132,8 +132,8 @@ TEST(Surrogates, AreOneBlackBoxOfAllMeans) {
   EXPECT_THROW(Surrogates({a, fit(X.leftCols(1), X.col(1), fixed(1, 1e-4))}), std::invalid_argument);
 }
 
-// A mean below the range of its response is no failed run: it counts as the bound. A model of other variables is a mistake
-// of the program, refused before anything is evaluated.
+// A mean below the range of its response is no failed run: it counts as the bound. A model of other variables is a
+// mistake of the program, refused before anything is evaluated.
 TEST(Surrogates, KeepTheRangesAndTheVariablesOfTheProblem) {
   const MatrixXd X = reference::design(20, 2, 9);
   const VectorXd low = X.col(0).array() - 0.5;

@@ -68,9 +68,9 @@ TEST(Polygamma, MeetsExactValues) {
 }
 
 // 20 000 variances tell what they were drawn from. ln v has the variance ψ'(d/2) + ψ'(d₀/2) = 5.58, 1.14 and 0.75 for
-// one, five and twenty degrees, and an excess kurtosis of at most 4, so that its estimate is off by √(6/20000) = 1.7 % of
-// it. One standard error is taken off, and four more are allowed: 0.47, 0.10 and 0.06 of ψ'(d₀/2) = 0.645, which d₀ = 4
-// follows. s₀² has the error of the mean, √(5.6/20000) = 1.7 %, and what d₀ is off by.
+// one, five and twenty degrees, and an excess kurtosis of at most 4, so that its estimate is off by √(6/20000) = 1.7 %
+// of it. One standard error is taken off, and four more are allowed: 0.47, 0.10 and 0.06 of ψ'(d₀/2) = 0.645, which d₀
+// = 4 follows. s₀² has the error of the mean, √(5.6/20000) = 1.7 %, and what d₀ is off by.
 TEST(SharedNoise, IsWhatVariancesWereDrawnFrom) {
   for (const int freedom : {1, 5, 20}) {
     const Told t = variances(20000, 4, freedom, 3);
@@ -124,7 +124,8 @@ TEST(ModeratedNoise, KeepsUnitsAndOrder) {
 }
 
 // Where chance is all that the variances differ by, the quietest of few runs is not left quiet: the seventh part of the
-// true variance at least in 19 of 20 sets of two samples each, where by itself it is below a hundredth in every other one.
+// true variance at least in 19 of 20 sets of two samples each, where by itself it is below a hundredth in every other
+// one.
 TEST(ModeratedNoise, OfFewRunsErrsTowardsOneVariance) {
   for (const Eigen::Index n : {10, 20, 40}) {
     int quiet = 0, raw = 0;

@@ -30,7 +30,8 @@ std::vector<doe::Variable> three_kinds() {
 
 }  // namespace
 
-// Half a side is 0.3 of 10 m and of 8 at first, 0.6 of that after six runs, and 0.01 at last, but one for whole numbers.
+// Half a side is 0.3 of 10 m and of 8 at first, 0.6 of that after six runs, and 0.01 at last, but one for whole
+// numbers.
 TEST(NearBest, ShrinksWithTheAgeOfTheBestRun) {
   const auto variables = three_kinds();
   const Eigen::Vector3d best(3.0, 5.0, 1.0);
@@ -47,8 +48,8 @@ TEST(NearBest, ShrinksWithTheAgeOfTheBestRun) {
   EXPECT_FALSE(reaches(1000, 0.11, 0.0));
 }
 
-// Wherever the best run lies and however old it is, all points lie in region and box, whole numbers are whole, and whole
-// numbers and categories reach every value that they may.
+// Wherever the best run lies and however old it is, all points lie in region and box, whole numbers are whole, and
+// whole numbers and categories reach every value that they may.
 TEST(NearBest, HoldsItsPoints) {
   const auto variables = three_kinds();
   for (const double age : {0.0, 7.0, 40.0})
@@ -75,8 +76,9 @@ TEST(NearBest, HoldsItsPoints) {
     }
 }
 
-// Rastrigin's function of four inputs has 10 000 valleys in this box, the best of 60 random points is 22 to 31. The median
-// of eleven searches is 4; it is 15 without models that are sums of one variable each, and 22 without the region as well.
+// Rastrigin's function of four inputs has 10 000 valleys in this box, the best of 60 random points is 22 to 31. The
+// median of eleven searches is 4; it is 15 without models that are sums of one variable each, and 22 without the region
+// as well.
 TEST(NearBest, HelpsOnARuggedFunction) {
   const auto rastrigin = [](const VectorXd& u) {
     double sum = 0;
@@ -94,4 +96,23 @@ TEST(NearBest, HelpsOnARuggedFunction) {
     best.push_back(optimize(rastrigin, problem, 60, {.seed = seed}).best.front().y[0]);
   std::nth_element(best.begin(), best.begin() + 5, best.end());
   EXPECT_LT(best[5], 10.0);
+}
+
+// Five wells of a width of a tenth: only runs elsewhere tell that the best of them is another one. A search that stays
+// near its best run misses it for 13 of 16 seeds, one without the region for 1.
+TEST(NearBest, LeavesAWellForADeeperOne) {
+  const MatrixXd places =
+      (MatrixXd(5, 2) << 0.15, 0.2, 0.8, 0.15, 0.5, 0.55, 0.2, 0.85, 0.85, 0.8).finished();
+  const VectorXd depths = (VectorXd(5) << 1.0, 1.2, 1.1, 1.5, 0.9).finished();
+  const auto wells = [&](const VectorXd& x) {
+    double sum = 0;
+    for (Eigen::Index k = 0; k < depths.size(); ++k)
+      sum -= depths[k] * std::exp(-(x - places.row(k).transpose()).squaredNorm() / (2 * 0.1 * 0.1));
+    return sum;
+  };
+  const doe::Problem problem{{{"x", "1", 0.0, 1.0}, {"z", "1", 0.0, 1.0}}, {{"y", "1", doe::Goal::minimize}}};
+  int missed = 0;
+  for (doe::Seed seed = 1; seed <= 16; ++seed)
+    missed += optimize(wells, problem, 60, {.seed = seed}).best.front().y[0] > -1.4;
+  EXPECT_LE(missed, 2);
 }

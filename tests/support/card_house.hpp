@@ -8,9 +8,9 @@
 
 /// A house of seven cards on the floor z = 0: two pairs that lean against each other, a card across both, a pair on it.
 ///
-/// Cards are slabs that touch with their edges alone, as real ones do: a leaning card stands on its lower inner edge and
-/// meets its partner in its upper inner edge; a lying card rests on the upper outer edges of a pair. All contacts are
-/// just closed. World frame, SI units.
+/// Cards are slabs that touch with their edges alone, as real ones do: a leaning card stands on its lower inner edge
+/// and meets its partner in its upper inner edge; a lying card rests on the upper outer edges of a pair. All contacts
+/// are just closed. World frame, SI units.
 namespace drawpoint::support {
 
 struct CardHouse {

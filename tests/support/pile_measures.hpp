@@ -13,9 +13,9 @@
 /// Overlap of two rocks: their penetration depth, the least translation that parts them, by the separating
 /// axis theorem over all face normals and all edge pairs of the true hulls, divided by the longest dimension
 /// of the smaller rock. Pairs deeper than 10 µm touch; mean and percentiles are over these: pairs that touch by less
-/// carry next to nothing, and would only thin the percentiles out. Drift: distance between a rock's centres at two times
-/// over the time between. Kinetic energy: translation and rotation,
-/// per rock. SI units, world frame. Cost: about 0.1 ms per touching pair, 0.5 s for 3000 settled rocks.
+/// carry next to nothing, and would only thin the percentiles out. Drift: distance between a rock's centres at two
+/// times over the time between. Kinetic energy: translation and rotation, per rock. SI units, world frame. Cost: about
+/// 0.1 ms per touching pair, 0.5 s for 3000 settled rocks.
 namespace drawpoint::support {
 
 /// A rock's motion as an engine reports it: centre of mass, principal axes; velocities in world axes.

@@ -37,8 +37,8 @@ inline int free_port() {
 
 class SlurmCluster {
  public:
-  /// Nodes n1, n2, ..., each of which counts as so many cores, whatever the machine has. SLURM_CONF of this process then
-  /// names the cluster.
+  /// Nodes n1, n2, ..., each of which counts as so many cores, whatever the machine has. SLURM_CONF of this process
+  /// then names the cluster.
   SlurmCluster(const std::filesystem::path& folder, int nodes, int cores = 2)
       : folder_(folder), nodes_(nodes), cores_(cores) {
     for (const char* part : {"state", "spool", "log"}) std::filesystem::create_directories(folder_ / part);

@@ -7,8 +7,8 @@
 #include <drawpoint/doe/outcome.hpp>
 #include <drawpoint/doe/problem.hpp>
 
-/// A welded beam with five limits (Ragsdell, Phillips 1976), shared by tests and benchmarks. Its cheapest design, 1.86164,
-/// lies where three limits meet: found by differential evolution with 240 000 runs.
+/// A welded beam with five limits (Ragsdell, Phillips 1976), shared by tests and benchmarks. Its cheapest design,
+/// 1.86164, lies where three limits meet: found by differential evolution with 240 000 runs.
 namespace drawpoint::support {
 
 /// `thickest`: weld and bar [in].

@@ -107,8 +107,8 @@ TEST(FourBarChain, HeadAtTheEnd) {
           .budget_reason = "Place of the head: what the benchmark allows for high precision, 1e-3."});
 }
 
-// A step of the fourth-order rule errs by x⁵/120 of the energy, 7 g from upright to hanging, x the fastest turn in it; in
-// all steps one way at worst.
+// A step of the fourth-order rule errs by x⁵/120 of the energy, 7 g from upright to hanging, x the fastest turn in it;
+// in all steps one way at worst.
 TEST(FourBarChain, EnergyThroughTheSingularPositions) {
   const double most = std::pow(fastest * h, 5) / 120 * 7 * g * duration / h;
   const Turning result = turn(h);

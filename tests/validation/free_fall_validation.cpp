@@ -31,9 +31,9 @@ const engine::Rock& thrown() {
 
 }  // namespace
 
-// A step without contact is v += h g, q += h (v + v + h g) / 2: after n steps v = v0 - g t and q = q0 + v0 t - g t² / 2, the
-// parabola itself, but for the round-off of n additions to numbers below 110: n · 110 · 1.1e-16 = 5e-12, and as many
-// roundings of speeds below 20, each carried on by q for up to t: 400 · 20 · 1.1e-16 · 2 s = 2e-12.
+// A step without contact is v += h g, q += h (v + v + h g) / 2: after n steps v = v0 - g t and q = q0 + v0 t - g t² /
+// 2, the parabola itself, but for the round-off of n additions to numbers below 110: n · 110 · 1.1e-16 = 5e-12, and as
+// many roundings of speeds below 20, each carried on by q for up to t: 400 · 20 · 1.1e-16 · 2 s = 2e-12.
 TEST(FreeFall, IsTheParabola) {
   const double t = steps * h;
   const Vector3d exact = start + velocity * t - Vector3d(0, 0, g * t * t / 2);

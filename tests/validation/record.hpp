@@ -9,12 +9,12 @@
 /// be.
 ///
 /// record() fails the running test unless |error| ≤ budget, and when the environment variable
-/// DRAWPOINT_VALIDATION_TABLE names a folder it also writes the problem's part of docs/reference/validation.md there, with
-/// the comparison that is nearest to its budget and the headlines, and its part of docs/validation/comparisons.csv,
-/// with all of them (replaced atomically at every call, so that a test that dies leaves whole files). Numbers are
-/// printed with the digits that the budget can tell apart, so that the same code gives the same text. A problem is
-/// one file, `<name>_validation.cpp`, and one program; not thread-safe. tests/validation/table puts the parts
-/// together.
+/// DRAWPOINT_VALIDATION_TABLE names a folder it also writes the problem's part of docs/reference/validation.md there,
+/// with the comparison that is nearest to its budget and the headlines, and its part of
+/// docs/validation/comparisons.csv, with all of them (replaced atomically at every call, so that a test that dies
+/// leaves whole files). Numbers are printed with the digits that the budget can tell apart, so that the same code gives
+/// the same text. A problem is one file, `<name>_validation.cpp`, and one program; not thread-safe.
+/// tests/validation/table puts the parts together.
 namespace drawpoint::validation {
 
 /// The table's sections, in its order.

@@ -60,7 +60,8 @@ class Apgd {
   VectorXd pushed_by(const VectorXd& impulses) const {
     return form_.inverse_mass * (form_.J.transpose() * impulses);
   }
-  // dᵀ (J M⁻¹ Jᵀ + Σ) d, which is at least what the gradient changes by along d, and dᵀ D⁻¹ d over the rows that answer.
+  // dᵀ (J M⁻¹ Jᵀ + Σ) d, which is at least what the gradient changes by along d, and dᵀ D⁻¹ d over the rows that
+  // answer.
   double curvature(const VectorXd& d, const VectorXd& change) const {
     return d.dot(form_.J * change) + d.cwiseAbs2().dot(form_.sigma);
   }

@@ -10,10 +10,11 @@
 
 /// The whole torque in the bucket's hinge G, as a hinge with a motor in it bears it, from a log.
 ///
-/// The wrench that is logged has the two components that twist the bucket. About the pin it has the motor's torque where
-/// motors in the hinges move the arm, and nothing where cylinders do: the tilt drive then puts its moment on the bucket
-/// beside the pin, through bell-crank and link. That moment, the cylinder's force times its lever (arm_linkage.hpp), is
-/// added here, so that both drives give one quantity. A log without poses of bucket and axle is taken as it is.
+/// The wrench that is logged has the two components that twist the bucket. About the pin it has the motor's torque
+/// where motors in the hinges move the arm, and nothing where cylinders do: the tilt drive then puts its moment on the
+/// bucket beside the pin, through bell-crank and link. That moment, the cylinder's force times its lever
+/// (arm_linkage.hpp), is added here, so that both drives give one quantity. A log without poses of bucket and axle is
+/// taken as it is.
 namespace drawpoint::engine::loading {
 
 class HingeTorque {

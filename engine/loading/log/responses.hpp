@@ -22,10 +22,10 @@
 /// Low-pass: y += (1 − exp(−2π f Δt)) (x − y) on each component, started anew with each cycle: a rigid
 /// impact's peak grows as 1/Δt, and unfiltered it would make the response a function of the time step.
 ///
-/// rock_spill: c₃ = mean over cycles of m / m_max [1]. m is the rock that the bucket held when it held most and no longer
-/// holds at the end of the cycle, by the rocks whose centre is in its heap. SpillLaw::before_front, the source's own: all
-/// rock before the pile's front (rock_left.hpp), which measures the scatter of the toe more than the strategy; the log
-/// must then have been read with its scene.
+/// rock_spill: c₃ = mean over cycles of m / m_max [1]. m is the rock that the bucket held when it held most and no
+/// longer holds at the end of the cycle, by the rocks whose centre is in its heap. SpillLaw::before_front, the source's
+/// own: all rock before the pile's front (rock_left.hpp), which measures the scatter of the toe more than the strategy;
+/// the log must then have been read with its scene.
 ///
 /// Source: Lindmark 2016, equations 54-56; aggregation, filter and what was lost are ours.
 namespace drawpoint::engine::loading {

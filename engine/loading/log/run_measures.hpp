@@ -26,9 +26,10 @@
 /// 15° apart, is counted over all cycles by rainflow.hpp and summed by Miner's rule; given is the range that
 /// does the same damage once per loading cycle, in the worse pin and its worst direction. solid fill: volume
 /// of the loaded rocks, without voids, over the bucket's struck volume; 1 − n for a level bucket of rock with
-/// porosity n. struck fill: solid fill over that, with the porosity of loose_ore_porosity. heaped fill: the same over the
-/// heaped volume, which is what a handbook's fill factor counts (Caterpillar Performance Handbook, 47th edition, of rated
-/// bucket capacity): 0.80 to 0.95 in well blasted rock, 0.75 to 0.90 in average, 0.60 to 0.75 in poorly blasted rock.
+/// porosity n. struck fill: solid fill over that, with the porosity of loose_ore_porosity. heaped fill: the same over
+/// the heaped volume, which is what a handbook's fill factor counts (Caterpillar Performance Handbook, 47th edition, of
+/// rated bucket capacity): 0.80 to 0.95 in well blasted rock, 0.75 to 0.90 in average, 0.60 to 0.75 in poorly blasted
+/// rock.
 namespace drawpoint::engine::loading {
 
 /// Porosity of the default rock in its mine's sizes, poured loosely (docs/decisions/0019)

@@ -193,7 +193,8 @@ ActuatorRates Executor::drive_in_speeds() const {
   return rates;
 }
 
-// A bucket that is to turn about its edge, whose boom would have to sink, turns about its hinge: rock or floor is under it.
+// A bucket that is to turn about its edge, whose boom would have to sink, turns about its hinge: rock or floor is under
+// it.
 ActuatorRates Executor::lift_speeds(const TipPose& tip) const {
   const TipRates wanted = lift_rates(tip);
   const ArmPose pose = arm_pose(arm_, tip);

@@ -19,11 +19,11 @@
 /// made good, and no direction goes beyond its goal (LiftGoal::along_slope: as aimed at its start); stage 3
 /// ω; stage 4 −v_x. A stage ends when (a) its goal is reached, (b) its time is up, or (c) an actuator whose
 /// set speed exceeds `least_set` has run below `slow_share` of it for longer than `slow_window`, in stages 1 and 2
-/// `dig_window`; in stage 1 the drive alone, as the arm then makes an operator's moves, which end by their time. (b) and (c)
-/// are being stuck; the policy says what follows. In stage 2 a slow drive alone ends nothing while the arm moves:
-/// cylinders that have force left go on while the wheels push (LiftEnd::any_actuator: it ends, as in the source).
-/// Stage 2 never lowers the boom: where the wanted tilt would turn the bucket about its edge and press its heel into floor or
-/// rock, it turns about its hinge. Stage 2 is left out if h = 0.
+/// `dig_window`; in stage 1 the drive alone, as the arm then makes an operator's moves, which end by their time. (b)
+/// and (c) are being stuck; the policy says what follows. In stage 2 a slow drive alone ends nothing while the arm
+/// moves: cylinders that have force left go on while the wheels push (LiftEnd::any_actuator: it ends, as in the
+/// source). Stage 2 never lowers the boom: where the wanted tilt would turn the bucket about its edge and press its
+/// heel into floor or rock, it turns about its hinge. Stage 2 is left out if h = 0.
 ///
 /// A value type on plain data: knows no simulator, deterministic. World frame, SI units. Source: Lindmark
 /// 2016, section 3.4, algorithm 1.

@@ -13,8 +13,8 @@
 ///   drive_and_curl   drive in and curl where the drive-in ends; no lift
 ///   steps            as slice, and a drive-in that is held up goes on in steps: lift, curl, lift, curl
 ///   edge_dropped     as steps, and after each curl the edge is dropped back into the rock: lift, curl, dump, curl
-/// All push while the bucket curls, at a speed that is set, and ease the throttle where wheels spin. Sources and rates of
-/// the moves: operator_moves.hpp.
+/// All push while the bucket curls, at a speed that is set, and ease the throttle where wheels spin. Sources and rates
+/// of the moves: operator_moves.hpp.
 namespace drawpoint::engine::loading {
 
 enum class Family : int { slice, drive_and_curl, steps, edge_dropped };

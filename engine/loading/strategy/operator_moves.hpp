@@ -11,17 +11,17 @@
 
 /// What an operator does at the pile beside following a plan.
 ///
-/// Moves: when the drive-in has been held up for `held_up`, boom and bucket make the next move of `round` while the drive
-/// goes on pushing; after the last move the round begins again, `rounds` times in all. A lift loads the front tyres and
-/// loosens the rock over the edge, a curl turns it into the bucket, a dump (a negative tilt) drops the edge back into the
-/// rock, so that the next push slides under what the curl has lifted. Easing: wheels that turn faster than the machine
-/// moves by more than `most_slip` are set slower, so that they pull and do not spin. Crowding: in the curl the drive pushes
-/// at `crowd`, which falls as the curl does, instead of standing still; so rock is pressed into the bucket while its mouth
-/// turns up. Releasing: with less than all of `curl_hold` the bucket, which swings forward as it turns up, can push the
-/// machine back. Lindmark (2016) has none of these. Sources: training material for
-/// underground loaders ("Getting a full bucket of dirt", undergroundtraining.com.au), Hemami and Hassani (2009), Dobson,
-/// Marshall and Larsson (2017); none gives rates or times, which are chosen here (docs/measurements/loading.md). World
-/// frame of kinematics.hpp, SI units.
+/// Moves: when the drive-in has been held up for `held_up`, boom and bucket make the next move of `round` while the
+/// drive goes on pushing; after the last move the round begins again, `rounds` times in all. A lift loads the front
+/// tyres and loosens the rock over the edge, a curl turns it into the bucket, a dump (a negative tilt) drops the edge
+/// back into the rock, so that the next push slides under what the curl has lifted. Easing: wheels that turn faster
+/// than the machine moves by more than `most_slip` are set slower, so that they pull and do not spin. Crowding: in the
+/// curl the drive pushes at `crowd`, which falls as the curl does, instead of standing still; so rock is pressed into
+/// the bucket while its mouth turns up. Releasing: with less than all of `curl_hold` the bucket, which swings forward
+/// as it turns up, can push the machine back. Lindmark (2016) has none of these. Sources: training material for
+/// underground loaders ("Getting a full bucket of dirt", undergroundtraining.com.au), Hemami and Hassani (2009),
+/// Dobson, Marshall and Larsson (2017); none gives rates or times, which are chosen here
+/// (docs/measurements/loading.md). World frame of kinematics.hpp, SI units.
 namespace drawpoint::engine::loading {
 
 /// Boom and bucket move so while the drive keeps the drive-in's speed.

@@ -3,9 +3,9 @@
 
 /// Arithmetic on the lanes of a batch, for the kernels (batch_kernels.cpp), compiled once per instruction set.
 ///
-/// A `V` holds `width` pairs, as many as a register of the target holds. (Two registers side by side are slower: GCC keeps them in
-/// memory.) Products and sums are separate operations on every target (no fused multiply-add), so the bits do not depend
-/// on the target. Highway includes this file once a target; hence the toggle instead of a guard.
+/// A `V` holds `width` pairs, as many as a register of the target holds. (Two registers side by side are slower: GCC
+/// keeps them in memory.) Products and sums are separate operations on every target (no fused multiply-add), so the
+/// bits do not depend on the target. Highway includes this file once a target; hence the toggle instead of a guard.
 #if defined(DRAWPOINT_LANES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef DRAWPOINT_LANES_INL
 #undef DRAWPOINT_LANES_INL

@@ -49,7 +49,8 @@ inline Ends ends_of(std::vector<double> values) {
   return {place(0.025), place(0.975)};
 }
 
-/// The mean at a less that at b, d entries each, lies between them; not numbers where the model does not know its error.
+/// The mean at a less that at b, d entries each, lies between them; not numbers where the model does not know its
+/// error.
 inline Ends ends_of_difference(const kriging::TransformedModel& model, const doe::Response& response,
                                const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
   constexpr int draws = 4000;

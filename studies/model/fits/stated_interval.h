@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// The stated interval of a prediction: between the quantiles of 2.5 and 97.5 % of one run, noise included, both ends within
-/// the response's range.
+/// The stated interval of a prediction: between the quantiles of 2.5 and 97.5 % of one run, noise included, both ends
+/// within the response's range.
 
 #include <drawpoint/doe/problem.hpp>
 #include <drawpoint/kriging/score.hpp>

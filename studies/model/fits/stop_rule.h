@@ -34,8 +34,8 @@ struct StopState {
   std::string text = {};  ///< "nrmse(cost) 0.12, wanted < 0.1"; says so where noise alone exceeds the bound
 };
 
-/// Returns the error of the mean of many runs as a share of the range, and its upper end with 95 % where noise hides it: an
-/// estimate of 0 says that it is too small to tell, not that there is none.
+/// Returns the error of the mean of many runs as a share of the range, and its upper end with 95 % where noise hides
+/// it: an estimate of 0 says that it is too small to tell, not that there is none.
 double error_that_counts(const kriging::MeanError& error);
 
 /// Validations and errors of the means, one of each per response, or none: then nothing is met.

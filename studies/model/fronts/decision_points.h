@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Which points of a predicted front a decision would rest on: the recommended one, the best of each objective, the balanced
-/// choice (front_points.h), the strongest knees (pareto/knees.hpp), then the points farthest from those chosen,
-/// each objective scaled to its range on the front.
+/// Which points of a predicted front a decision would rest on: the recommended one, the best of each objective, the
+/// balanced choice (front_points.h), the strongest knees (pareto/knees.hpp), then the points farthest from those
+/// chosen, each objective scaled to its range on the front.
 
 #include <drawpoint/doe/problem.hpp>
 #include <drawpoint/pareto/search.hpp>

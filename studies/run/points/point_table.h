@@ -53,8 +53,8 @@ TablePlace read_table(const std::filesystem::path& file, const std::string& opti
                       const std::function<void(const TableHeader&)>& first,
                       const std::function<void(const doe::detail::CsvRecord&, const TablePlace&)>& row);
 
-/// The points of a table, one row each (n x d). Throws UsageError as read_table, for a column that is missing, for what is
-/// no value of its variable, and for a table without rows.
+/// The points of a table, one row each (n x d). Throws UsageError as read_table, for a column that is missing, for what
+/// is no value of its variable, and for a table without rows.
 Eigen::MatrixXd points_of_table(const std::filesystem::path& file, const std::string& option,
                                 const doe::Problem& problem);
 

@@ -23,8 +23,9 @@ std::string confirming_point(const ReportInput& input, const Eigen::VectorXd& x)
 
 namespace detail {
 
-/// {"sentences", "x" or null, "row" of the front or -1, "simulated": [runs], "command": what simulates x or null, "reference": {"name", "x", "means"} or null,
-/// "means" of all responses at x, "trust": one line, "cautions": how many}.
+/// {"sentences", "x" or null, "row" of the front or -1, "simulated": [runs], "command": what simulates x or null,
+/// "reference": {"name", "x", "means"} or null, "means" of all responses at x, "trust": one line, "cautions": how
+/// many}.
 nlohmann::json answer_json(const ReportInput& input);
 
 /// "; the luckiest of 52 single runs, run 12, gave 880 kg/s (760 to 1000 with 95 %), where the model expects 764

@@ -7,8 +7,8 @@
 ///
 /// Contents: the answer in three sentences with trade-off and simulation side by side, trade-offs, what simulation
 /// said of them, figures of one simulation, runs set against each other, response surfaces (the surrogates are
-/// evaluated in the browser), other hauls, how far to trust it, validation, findings, the runs, what was asked. Each part copes with what is missing: no
-/// validation runs, one response, no objective, no successful run.
+/// evaluated in the browser), other hauls, how far to trust it, validation, findings, the runs, what was asked. Each
+/// part copes with what is missing: no validation runs, one response, no objective, no successful run.
 
 #include <drawpoint/studies/model/modelled_study.h>
 #include <drawpoint/studies/finding.hpp>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 
-// A pile in a box: rocks of one's own shape fall into a bin, come to rest, are weighed by the floor, looked at by a ray,
-// saved and taken back. docs/tutorials/first-pile.md, part 1.
+// A pile in a box: rocks of one's own shape fall into a bin, come to rest, are weighed by the floor, looked at by a
+// ray, saved and taken back. docs/tutorials/first-pile.md, part 1.
 
 #include <cmath>
 #include <cstdio>
@@ -90,7 +90,8 @@ int main() {
   while (world.time() < 6 || (world.fastest_rock() > 0.005 && world.time() < 30)) world.step();
   std::printf("fastest rock after %.1f s: %.4f m/s\n", world.time(), world.fastest_rock());
 
-  // Walls carry a share of the weight by friction, or keep the pile down where rocks wedge; with the ground they carry all.
+  // Walls carry a share of the weight by friction, or keep the pile down where rocks wedge; with the ground they carry
+  // all.
   double held = 0;
   for (const PairForce& pair : world.pair_forces())
     held += (pair.a.owner == Owner::fixed) * pair.force.z() - (pair.b.owner == Owner::fixed) * pair.force.z();

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 // Touching pairs that FCL gets wrong, on its own and with libccd: the contact finder, which takes its pairs
-// of boxes from FCL, gets them right, with FCL's narrow phase too, whose answers it checks. Error budget: the finder prefers a face to edges that
-// are better by less than 1e-7 m; bound 1e-6 m.
+// of boxes from FCL, gets them right, with FCL's narrow phase too, whose answers it checks. Error budget: the finder
+// prefers a face to edges that are better by less than 1e-7 m; bound 1e-6 m.
 #include <gtest/gtest.h>
 #include <malloc.h>
 
@@ -63,8 +63,8 @@ TEST(FclFailures, TouchingPairsThatTheBuiltInSolverMisses) {
 }
 
 // FCL throws at some pairs of slivers and rocks, in the middle of its polytope. What a round leaves
-// allocated would be left by each: the second may end with no more than the first, but for the allocator's own rounding.
-// The address sanitizer sees the same, by itself.
+// allocated would be left by each: the second may end with no more than the first, but for the allocator's own
+// rounding. The address sanitizer sees the same, by itself.
 TEST(FclFailures, WhatMakesFclThrowLeavesNoMemoryBehind) {
   const std::vector<Eigen::Vector3d> corner{{0, 0, 0}, {1, 0, 0}, {0.5, 0.5, 1e-5}, {0.5, 1e-4, 0.3}},
       lens{{-0.3, 0, 0}, {0.3, 0, 0}, {0, 0.3, 0}, {0, -0.3, 0}, {0, 0, 1e-3}, {0, 0, -1e-3}};

@@ -118,9 +118,10 @@ TEST(ConvexPolyhedron, MergesCoplanarFacesAndDropsInnerPoints) {
   }
 }
 
-// A mesh as files have it: turned, moved and sized as may be, in single precision or as text of six digits. A number x is
-// then off by at most 2^-24 |x| or 5e-6 |x|, so points by e = sqrt(3) of that for the largest, the volume by e times the
-// surface, and planes by a few e, below the 1e-5 of the extent within which faces are merged: text is not moved away.
+// A mesh as files have it: turned, moved and sized as may be, in single precision or as text of six digits. A number x
+// is then off by at most 2^-24 |x| or 5e-6 |x|, so points by e = sqrt(3) of that for the largest, the volume by e times
+// the surface, and planes by a few e, below the 1e-5 of the extent within which faces are merged: text is not moved
+// away.
 TEST(ConvexPolyhedron, FindsTheFacesThatAMeshMeant) {
   struct Rounded {
     double error;  // of a number
@@ -157,8 +158,8 @@ TEST(ConvexPolyhedron, FindsTheFacesThatAMeshMeant) {
       }
 }
 
-// What SciPy's ConvexHull, which is Qhull, takes: any points that span a volume. All lie within the tolerance of the hull, and
-// its volume is what Qhull says of the same points (facets as triangles), here summed from them.
+// What SciPy's ConvexHull, which is Qhull, takes: any points that span a volume. All lie within the tolerance of the
+// hull, and its volume is what Qhull says of the same points (facets as triangles), here summed from them.
 TEST(ConvexPolyhedron, TakesAnyCloud) {
   std::mt19937 rng(4);
   std::normal_distribution<double> normal;

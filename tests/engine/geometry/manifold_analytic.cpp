@@ -107,9 +107,9 @@ TEST(Manifold, CrossedEdgesTouchInOnePoint) {
   }
 }
 
-// An octagonal plate of circumradius R stands on one side of its lower face, tilted by t: the two ends of that side touch,
-// the other corners hang up to 2 R cos(π/8) sin t = 7.4 mm over the plane, within the margin. What touches must be
-// among the four points.
+// An octagonal plate of circumradius R stands on one side of its lower face, tilted by t: the two ends of that side
+// touch, the other corners hang up to 2 R cos(π/8) sin t = 7.4 mm over the plane, within the margin. What touches must
+// be among the four points.
 TEST(Manifold, OfManyPointsThoseThatTouchAreKept) {
   const double R = 0.2, half = 0.05, t = 0.02, apothem = R * std::cos(std::numbers::pi / 8);
   const Eigen::Quaterniond lying = turn(std::numbers::pi / 2, {1, 0, 0}), tilted = turn(-t, {1, 0, 0});
@@ -126,8 +126,8 @@ TEST(Manifold, OfManyPointsThoseThatTouchAreKept) {
 }
 
 // A bar on edge lies along x across a block of half width 0.2, tilted by ±t. Its edge meets the block's upper edges at
-// x = ±0.2, at heights h ∓ 0.2 tan t over the block; along the axis, which the bar's edge and the lower of the two span,
-// both are shorter by cos t. Both ends are points, however little the bar tilts, and to whichever side.
+// x = ±0.2, at heights h ∓ 0.2 tan t over the block; along the axis, which the bar's edge and the lower of the two
+// span, both are shorter by cos t. Both ends are points, however little the bar tilts, and to whichever side.
 TEST(Manifold, EdgeAcrossANearlyFlatFaceTouchesAtBothEnds) {
   const auto block = share(box({0.2, 1, 0.1})), bar = share(box({1, 0.1, 0.1}));
   const double h = -0.0005, radius = 0.1 * std::sqrt(2.0);

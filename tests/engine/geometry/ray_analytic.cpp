@@ -88,8 +88,8 @@ TEST(Ray, MeetsACylinder) {
       << "beside the end face";
 }
 
-// Against a search that only knows which side of each face a point is on. It sees a chord longer than its step; a hit on a
-// shorter one may be ours alone.
+// Against a search that only knows which side of each face a point is on. It sees a chord longer than its step; a hit
+// on a shorter one may be ours alone.
 TEST(Ray, EntersRocksWhereASearchDoes) {
   CounterRandom random(11);
   int hits = 0;

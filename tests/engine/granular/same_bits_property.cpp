@@ -78,7 +78,8 @@ TEST_P(SameBits, AcrossSaveAndRestoreWithChangesPending) {
 INSTANTIATE_TEST_SUITE_P(Methods, SameBits, testing::Values(Method::sequential, Method::batched),
                          [](const auto& info) { return std::string(to_string(info.param)); });
 
-// Solved by other options for a while: as a world that has had them from the start, and no trace of it once they are set back.
+// Solved by other options for a while: as a world that has had them from the start, and no trace of it once they are
+// set back.
 TEST(SetSolver, SolvesLaterStepsAndLeavesNoTrace) {
   WorldOptions other = options(1, Method::batched);
   other.solver.substeps = 4;

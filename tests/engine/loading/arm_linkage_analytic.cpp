@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-// The tilt cylinder's lever against the machine's own constraints, and against the force that its link puts on the bucket.
+// The tilt cylinder's lever against the machine's own constraints, and against the force that its link puts on the
+// bucket.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -42,7 +43,8 @@ TEST(ArmLinkage, LeverInTheReferencePose) {
   EXPECT_NEAR(tilt_lever(pins, a, 0), 1 / 1.306, 5e-4);
 }
 
-// All over the arm's reach the closed form is the constraints' own factor: loops are closed to 1e-9 m, levers are a metre.
+// All over the arm's reach the closed form is the constraints' own factor: loops are closed to 1e-9 m, levers are a
+// metre.
 TEST(ArmLinkage, LeverIsThatOfTheMachinesConstraints) {
   Arm arm;
   arm.machine.place(Eigen::Isometry3d::Identity());
@@ -73,9 +75,9 @@ TEST(ArmLinkage, AnglesComeFromWorldPoints) {
     }
 }
 
-// A bucket that hangs still, 21 t pulling down 0.9 m ahead of G: the tilt drive holds 185 kN m and the bucket's own weight.
-// The link's moment about G, from the machine's reactions, is the drive's but for weight and inertia of bell-crank, link and
-// the halves of the cylinder, 1.6 t at levers below 1 m: 16 kN m.
+// A bucket that hangs still, 21 t pulling down 0.9 m ahead of G: the tilt drive holds 185 kN m and the bucket's own
+// weight. The link's moment about G, from the machine's reactions, is the drive's but for weight and inertia of
+// bell-crank, link and the halves of the cylinder, 1.6 t at levers below 1 m: 16 kN m.
 TEST(ArmLinkage, TheHingeTakesTheTiltDrivesMoment) {
   Arm arm;
   World world({}, material_table(calibrated_materials()));

@@ -98,10 +98,10 @@ TEST(DriveLine, AcceleratesTheMachineWithItsPower) {
   }
 }
 
-// A push F on the front unit at the height of the axles for half a second: F t/m, less what pitching and the tyres take: F at
-// 0.95 m shifts 10 kN over the wheelbase, 2.4 mm in each pair of tyres of 4 MN/m, and while the machine pitches by that,
-// 1 mrad in some 0.3 s, the axle, 0.2 m below the centre, lags by 1 mm/s; 4 mm/s with the swing, 1 %. Held, it moves by what
-// tyres of 2 MN/m give at most, 25 mm, once.
+// A push F on the front unit at the height of the axles for half a second: F t/m, less what pitching and the tyres
+// take: F at 0.95 m shifts 10 kN over the wheelbase, 2.4 mm in each pair of tyres of 4 MN/m, and while the machine
+// pitches by that, 1 mrad in some 0.3 s, the axle, 0.2 m below the centre, lags by 1 mm/s; 4 mm/s with the swing, 1 %.
+// Held, it moves by what tyres of 2 MN/m give at most, 25 mm, once.
 TEST(DriveLine, WheelsRollWhenTheDriveIsReleased) {
   const double push = 50e3, h = WorldOptions().step;
   for (const double share : {0.0, 1.0}) {

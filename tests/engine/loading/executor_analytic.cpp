@@ -190,8 +190,8 @@ TEST(Executor, AShortDriveInIsMadeGoodByTheLift) {
 }
 
 // A pile that lets the machine drive at three tenths of the set speed only: the boom takes the tip to its height and no
-// further, while the drive goes on to C. (A boom that follows its set speed goes at most one step too far; the tilt that is
-// left then turns the bucket about its hinge, which stands.)
+// further, while the drive goes on to C. (A boom that follows its set speed goes at most one step too far; the tilt
+// that is left then turns the bucket about its hinge, which stands.)
 TEST(Executor, ALiftWhoseDriveLagsBehindKeepsItsHeight) {
   const Plan plan = example_plan();
   bool lifting = false;

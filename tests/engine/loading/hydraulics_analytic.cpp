@@ -114,8 +114,8 @@ TEST(Hydraulics, ThePumpKeepsTheRatioOfLiftAndTilt) {
 // Between boom and front unit, a force on the boom and its opposite on the front unit, so that the machine as
 // a whole feels nothing: at 1.38 m from hinge F against the cylinders' 1.2 m, with the arm's weight, some 110
 // kN at twice that.
-// 1.2 MN up are 1.1 to 1.2 MN in the cylinders, more than the ring areas hold (0.99 MN): the valve holds those and the rods
-// come out. 0.9 MN down are 1.2 to 1.3 MN, which the rings would not hold and the pistons (1.43 MN) do.
+// 1.2 MN up are 1.1 to 1.2 MN in the cylinders, more than the ring areas hold (0.99 MN): the valve holds those and the
+// rods come out. 0.9 MN down are 1.2 to 1.3 MN, which the rings would not hold and the pistons (1.43 MN) do.
 TEST(Hydraulics, WhatLiftsTheBoomMeetsTheRingAreaOnly) {
   for (const double push : {1.2e6, -0.9e6}) {
     Yard yard(machine_options);

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-// Ways that are not simulated take what the executor takes on a machine that does as it is told: to the step of the clock.
+// Ways that are not simulated take what the executor takes on a machine that does as it is told: to the step of the
+// clock.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -65,7 +66,8 @@ TEST(LeftOut, ApproachIsUniformAccelerationThenSpeed) {
   EXPECT_DOUBLE_EQ(approach(3, speeds).time, 2);
 }
 
-// From wherever the executor's own run is cut: its remaining time, to two steps of its clock and the millisecond of the sum.
+// From wherever the executor's own run is cut: its remaining time, to two steps of its clock and the millisecond of the
+// sum.
 TEST(LeftOut, TheSumOfBothPartsIsTheWhole) {
   constexpr double h = 0.002;
   for (const SpeedPreset& speeds : {lindmark2016_speeds(), machine_speeds()})
@@ -113,7 +115,7 @@ TEST(LeftOut, ACycleBegunAtTheToeEndsAboveA) {
   ASSERT_EQ(executor.results().size(), 4u);
   // Stage 4 ends within its tolerance, 2 % of a way of some 6 m.
   EXPECT_NEAR(tip_pose(arm, pose).x, plan.corners[0].x, 0.02 * 6 + 0.01);
-  // Both runs end within that tolerance of A, where they back at the floor of the speeds, 5 % of 3.8 m/s: what their ends
-  // lie apart, by steps of 2 ms at up to 1.5 m/s in each of four stages, takes at most 0.06 s there.
+  // Both runs end within that tolerance of A, where they back at the floor of the speeds, 5 % of 3.8 m/s: what their
+  // ends lie apart, by steps of 2 ms at up to 1.5 m/s in each of four stages, takes at most 0.06 s there.
   EXPECT_NEAR(t + way.time, driven(plan, options, h).back().time, 4 * 1.5 * h / (0.05 * 3.8));
 }

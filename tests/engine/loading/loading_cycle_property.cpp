@@ -65,9 +65,10 @@ TEST(LoadingCycle, LoadsRocksAndBooksEveryKilogram) {
   EXPECT_DOUBLE_EQ(production(log), cycle.loaded_mass / cycle.seconds());
 }
 
-// What is counted for the parts that are left out is what they take: the machine follows its set speeds on a level floor to
-// a few per cent, so that a tenth of the 5 s of both is room enough. The cycle that is simulated ends with a clear bucket
-// on its way back. What the whole one simulates is longer by these parts, the digging being another (rocks part at once).
+// What is counted for the parts that are left out is what they take: the machine follows its set speeds on a level
+// floor to a few per cent, so that a tenth of the 5 s of both is room enough. The cycle that is simulated ends with a
+// clear bucket on its way back. What the whole one simulates is longer by these parts, the digging being another (rocks
+// part at once).
 TEST(LoadingCycle, LeavesOutWhatTheMachineDrivesAlone) {
   const CycleRecord &part = cycle_log().cycles[0], &whole = whole_cycle_log().cycles[0];
   EXPECT_EQ(whole.left_out_time, 0);

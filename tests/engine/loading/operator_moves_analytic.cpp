@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-// When an operator makes which move, eases the throttle and crowds: counted steps of a clock, and the executor on plants
-// that hold the drive up. All numbers are exact up to one step of the clock, h.
+// When an operator makes which move, eases the throttle and crowds: counted steps of a clock, and the executor on
+// plants that hold the drive up. All numbers are exact up to one step of the clock, h.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -94,8 +94,8 @@ ActuatorRates pile_that_holds(const ActuatorRates& set, const TipPose& tip, Stag
 
 }  // namespace
 
-// Slow from the clock's zero on: the first move from 32 h to 96 h and, 32 h after, the second from 128 h to 192 h, with 32 h
-// after the last one; a second round goes on so.
+// Slow from the clock's zero on: the first move from 32 h to 96 h and, 32 h after, the second from 128 h to 192 h, with
+// 32 h after the last one; a second round goes on so.
 TEST(MoveSequence, ComesWhenTheDriveIsHeldUpAndLeavesItTimeBetween) {
   for (const int rounds : {1, 2}) {
     OperatorMoves moves = moves_of_the_clock();
@@ -129,8 +129,8 @@ TEST(OperatorMoves, NoneAreMadeByDefault) {
   for (const Step& step : cycle.of(Stage::curl)) EXPECT_EQ(step.set.drive, 0);
 }
 
-// Without moves the drive-in ends when the drive has been slow for half a second; with them they come first: a lift and a dump of 64
-// steps each, at the arm's rates, and the drive pushes all along.
+// Without moves the drive-in ends when the drive has been slow for half a second; with them they come first: a lift and
+// a dump of 64 steps each, at the arm's rates, and the drive pushes all along.
 TEST(OperatorMoves, ComeBeforeADriveInIsStuck) {
   const OperatorMoves moves = moves_of_the_clock();
   const Cycle cycle = cycle_on(a_plan(1), moves, pile_that_holds);
@@ -164,7 +164,8 @@ TEST(OperatorMoves, AnArmThatIsHeldUpEndsNoMove) {
             256);
 }
 
-// The drive is held up from the start of the lift: the source's rule ends it after half a second; while the arm moves it goes on.
+// The drive is held up from the start of the lift: the source's rule ends it after half a second; while the arm moves
+// it goes on.
 TEST(OperatorMoves, ADriveThatIsHeldUpLetsTheLiftComeToItsHeight) {
   const Plan plan = a_plan(1.5);
   const Cycle source = cycle_on(plan, {}, pile_that_holds, LiftEnd::any_actuator);
@@ -207,8 +208,8 @@ TEST(OperatorMoves, TheThrottleIsEasedWhereWheelsWouldSpin) {
   EXPECT_TRUE(eased);
 }
 
-// The drive's set speed falls as the curl does, from `crowd` to the floor of the speeds; a drive that does not move then
-// is not stuck, and the curl comes to its angle.
+// The drive's set speed falls as the curl does, from `crowd` to the floor of the speeds; a drive that does not move
+// then is not stuck, and the curl comes to its angle.
 TEST(OperatorMoves, CrowdingPushesThroughTheCurl) {
   OperatorMoves moves;
   moves.crowd = 0.5;

@@ -71,7 +71,8 @@ TEST(SettledPile, LiesAtRestInsideTheDrift) {
 // seed, the study's own: seeds lie at 36 degrees in the mean. Single piles of this rock scatter by 3.9 (standard
 // deviation of eleven), 24 piles of the default before by 4.6 (docs/measurements/loading.md); the larger sample
 // is taken, and one pile may lie that much outside. No row is flatter than a pile that was dropped (25 degrees at
-// most) or steeper than wet sand stands; the crest is higher than the bucket's mouth, 1.75 m, and no rock reaches the roof.
+// most) or steeper than wet sand stands; the crest is higher than the bucket's mouth, 1.75 m, and no rock reaches the
+// roof.
 TEST(SettledPile, LiesAtTheAngleOfReposeOfBlastedRock) {
   const Scenario scenario = lh621_in_a_drift();
   const SettledPile pile = pour_pile(scenario);

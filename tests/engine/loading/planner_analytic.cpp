@@ -109,8 +109,8 @@ TEST(Planner, HeightIsBoundByTheCrest) {
   EXPECT_DOUBLE_EQ(plan_trajectory(strategy, plane_pile(3.5, 35 * degree, straight, 1.7)).height, 1.7);
 }
 
-// Under a roof: at h_max the outline and the tip, turned through the curl in ten thousand steps, just touch it. Between two
-// steps a point within 3 m of the pivot rises by less than 3 m (π/2/1e4)²/8 = 1e-8 m over the higher one.
+// Under a roof: at h_max the outline and the tip, turned through the curl in ten thousand steps, just touch it. Between
+// two steps a point within 3 m of the pivot rises by less than 3 m (π/2/1e4)²/8 = 1e-8 m over the higher one.
 TEST(Planner, HeightLetsTheBucketCurlUnderTheRoof) {
   const ColumnModel model = plane_pile(3.5, 35 * degree, straight);
   const std::vector<Eigen::Vector2d> bucket{{0.8, 1.25}, {1.74, 0.63}, {0.1, -0.4}};

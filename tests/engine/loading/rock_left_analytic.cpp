@@ -47,8 +47,8 @@ struct CubeScene {
 
 }  // namespace
 
-// Two strays lie before the pile, one of them in the lane of 3.2 m about y = 0. Read literally, the front of the strips with
-// a gap at x = 16 to 16.5 is there: the four cubes before it count too. What the bucket holds counts for nothing.
+// Two strays lie before the pile, one of them in the lane of 3.2 m about y = 0. Read literally, the front of the strips
+// with a gap at x = 16 to 16.5 is there: the four cubes before it count too. What the bucket holds counts for nothing.
 TEST(RockLeft, IsCountedInTheLaneAndBeforeTheLiteralFront) {
   CubeScene scene;
   scene.add_pile(16.25, 0.75);

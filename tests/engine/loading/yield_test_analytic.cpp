@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-// The crash into a fixed rock. Its end is statics: the wheels push at their torque limit, F = 4 M / r, against a rock at
-// a known place across the bucket.
+// The crash into a fixed rock. Its end is statics: the wheels push at their torque limit, F = 4 M / r, against a rock
+// at a known place across the bucket.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,10 +27,11 @@ std::string refusal(const YieldTestOptions& options) {
 
 }  // namespace
 
-// F = 4 · 81 kN m / 0.93 m = 348 kN at most, and what the tyres hold (0.65 · 57 t · g = 363 kN) at most. About the vertical the
-// hinge bears F y − F_y a: y the place of the contact, the rock's give or take half of its width, 0.15 m; F_y the side
-// force, by friction on steel at most 0.5 F; a = 1.8 m from pin to edge. The rock's face leans by 20° at most: F_z is at most
-// tan(20° + 27°) F = 1.1 F and adds F_z y about the long axis. In the middle only the rock's half width and F_y are left.
+// F = 4 · 81 kN m / 0.93 m = 348 kN at most, and what the tyres hold (0.65 · 57 t · g = 363 kN) at most. About the
+// vertical the hinge bears F y − F_y a: y the place of the contact, the rock's give or take half of its width, 0.15 m;
+// F_y the side force, by friction on steel at most 0.5 F; a = 1.8 m from pin to edge. The rock's face leans by 20° at
+// most: F_z is at most tan(20° + 27°) F = 1.1 F and adds F_z y about the long axis. In the middle only the rock's half
+// width and F_y are left.
 TEST(YieldTest, EndsWithTheThrustTimesItsArm) {
   const double thrust = 4 * LhdOptions().wheel_torque / 0.93;
   const auto end = [&](double offset) {
@@ -51,10 +52,10 @@ TEST(YieldTest, TouchesAtTheDriveInSpeed) {
   EXPECT_EQ(test.time.size(), test.torque.size());
 }
 
-// A low-pass of a signal never exceeds its largest magnitude: each value is a mean, with positive weights, of those before. The
-// filter runs from the approach on, when the hinge bears the bucket's weight alone: at the touch it takes up 1 − exp(−2π 20 Hz
-// 10 ms) = 0.715 of the step, and the largest value of a peak of one or two steps is 0.92 of it at most. Away from the middle
-// the same push has the longer arm.
+// A low-pass of a signal never exceeds its largest magnitude: each value is a mean, with positive weights, of those
+// before. The filter runs from the approach on, when the hinge bears the bucket's weight alone: at the touch it takes
+// up 1 − exp(−2π 20 Hz 10 ms) = 0.715 of the step, and the largest value of a peak of one or two steps is 0.92 of it at
+// most. Away from the middle the same push has the longer arm.
 TEST(YieldTest, PeaksAreOrdered) {
   const YieldTest middle = yield_test(scenario()), side = yield_test(scenario(), {.offset = 1.2});
   for (const YieldTest& test : {middle, side}) {

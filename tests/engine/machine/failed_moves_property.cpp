@@ -36,9 +36,9 @@ MachineSpec rocker() {
 
 }  // namespace
 
-// Speeds that carry the joints farther in a step than the loops' projection may take back, and ones beyond the machine's
-// limit of 1e5. All that state() holds counts: set speeds, motor forces, row starts, added forces,
-// joint forces.
+// Speeds that carry the joints farther in a step than the loops' projection may take back, and ones beyond the
+// machine's limit of 1e5. All that state() holds counts: set speeds, motor forces, row starts, added forces, joint
+// forces.
 TEST(Machine, IsAsBeforeWhenItsStepFails) {
   int failed = 0;
   for (double rate = 10; rate < 3e5; rate *= 1.1) {
@@ -108,8 +108,8 @@ TEST(MachineSpec, RefusesBodiesThatAreNotFinite) {
   refused([](MachineSpec& s) { s.bodies[1].mass = std::numeric_limits<double>::infinity(); }, "mass");
 }
 
-// A machine that is put elsewhere in motion: every point moves by the vector, the base goes at its velocity without turning,
-// the joint at its speed; what makes no sense changes nothing.
+// A machine that is put elsewhere in motion: every point moves by the vector, the base goes at its velocity without
+// turning, the joint at its speed; what makes no sense changes nothing.
 TEST(Machine, IsPutElsewhereAndInMotion) {
   MachineSpec spec = rocker();
   engine::machine::BodySpec base;

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-// Turning bodies of a machine: momentum and energy of free ones, the precession of a gyroscope, the order of the method.
+// Turning bodies of a machine: momentum and energy of free ones, the precession of a gyroscope, the order of the
+// method.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-// A contact problem in a plain file is what docs/explanation/contact-solving.md promises to other programs, seen by the HDF5
-// library alone; what they write comes back as the same problem.
+// A contact problem in a plain file is what docs/explanation/contact-solving.md promises to other programs, seen by the
+// HDF5 library alone; what they write comes back as the same problem.
 #include <gtest/gtest.h>
 #include <hdf5.h>
 #include <unistd.h>

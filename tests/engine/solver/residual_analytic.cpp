@@ -134,8 +134,9 @@ TEST(Residual, MeasuresAnErrorOfTheMoment) {
 }
 
 // Gauss-Seidel converges linearly once sticking and sliding are settled, and slowly where boxes rest on
-// several corners. The first few iterations may overshoot: they have momentum. From sixteen on the residual falls between
-// rungs of four times the iterations; at the end it has fallen by five powers of ten and more. Below 1e-8 only the slowest modes are left, which need not show over one rung.
+// several corners. The first few iterations may overshoot: they have momentum. From sixteen on the residual falls
+// between rungs of four times the iterations; at the end it has fallen by five powers of ten and more. Below 1e-8 only
+// the slowest modes are left, which need not show over one rung.
 TEST(Residual, FallsWithIterations) {
   const ContactProblem unsolved = support::heap_of_boxes();
   ASSERT_GT(unsolved.points.size(), 20u);

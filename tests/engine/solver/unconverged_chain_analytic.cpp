@@ -45,8 +45,8 @@ ContactProblem chain(double time) {
 
 }  // namespace
 
-// What the iterations of a substep do, in units of a lone one, where each does so little that the next finds the same to
-// do: every iteration adds 1, and momentum β of what was added since the last iteration that had it.
+// What the iterations of a substep do, in units of a lone one, where each does so little that the next finds the same
+// to do: every iteration adds 1, and momentum β of what was added since the last iteration that had it.
 double work_of(int iterations) {
   double done = 0, then = 0;
   for (int k = 0; k < iterations; ++k) {
@@ -60,9 +60,9 @@ double work_of(int iterations) {
   return done;
 }
 
-// The heavy body swings on the spring k = N m_eff / h_s², N the work of a substep of h_s, m_eff = m M / (m + M): after a
-// quarter of its period it has sunk by v / ω, ω² = k / M, and stands. Substeps resolve the swing to ω h_s, and the light
-// body takes m / M of the motion; so much less, relatively, is also left to do for each iteration that follows.
+// The heavy body swings on the spring k = N m_eff / h_s², N the work of a substep of h_s, m_eff = m M / (m + M): after
+// a quarter of its period it has sunk by v / ω, ω² = k / M, and stands. Substeps resolve the swing to ω h_s, and the
+// light body takes m / M of the motion; so much less, relatively, is also left to do for each iteration that follows.
 TEST(UnconvergedChain, IsASpringWithoutDamping) {
   const double effective = light * heavy / (light + heavy);
   for (const double h : {1e-2 / 4, 1e-2 / 16})

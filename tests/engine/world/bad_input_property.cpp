@@ -157,8 +157,9 @@ TEST_F(BadInput, StepsThatAreTooShortOrTooLong) {
     expect_told([&] { world.step(h); }, {"World::step", "step is", "1e-09 to 0.1 s"});
 }
 
-// A box falls on the floor and lies there, in steps of any lengths. What overlaps is pushed apart at 1 m/s at most, so it
-// never has more energy than it fell with and that. An impact that a short step ends is no load for a long step that follows.
+// A box falls on the floor and lies there, in steps of any lengths. What overlaps is pushed apart at 1 m/s at most, so
+// it never has more energy than it fell with and that. An impact that a short step ends is no load for a long step that
+// follows.
 TEST(Steps, OfAnyLengthsMakeNoEnergy) {
   std::mt19937 rng(1);
   std::uniform_real_distribution<double> power(-9, -1), height(0, 0.5);

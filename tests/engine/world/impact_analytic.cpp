@@ -114,9 +114,9 @@ TEST_P(Impact, OverlappingCubesPartSlowly) {
   EXPECT_NEAR(fastest, bound, 1e-3 * bound);
 }
 
-// With restitution 1 and without friction a box that falls flat bounces for ever: it flies parabolas, and an impact turns its
-// velocity round where it is. Only a step in which the floor pushes beside, because four corners touch one after the other,
-// may cost or give: g h² / 2 of height at most, each of 120 s / 2 s bounces.
+// With restitution 1 and without friction a box that falls flat bounces for ever: it flies parabolas, and an impact
+// turns its velocity round where it is. Only a step in which the floor pushes beside, because four corners touch one
+// after the other, may cost or give: g h² / 2 of height at most, each of 120 s / 2 s bounces.
 TEST_P(Impact, ABoxBouncesForEver) {
   for (const double h : {0.002, 0.01, 0.02}) {
     engine::WorldOptions options;
@@ -136,10 +136,11 @@ TEST_P(Impact, ABoxBouncesForEver) {
   }
 }
 
-// Two rocks of any shape, spin and friction that strike each other: restitution gives back no more than it took, also where
-// Newton's law would (Kane's paradox; solver.restitution_property has the impact alone). Bound: single precision over the
-// steps of contact, as above, and the push that removes an overlap: turning by 8.7 rad/s for 1 ms brings a corner 0.35 m out
-// 1.3e-5 m farther than its velocity says, two of them go out at 4/9 of 2.6e-5 m in a substep, 0.19 m/s: 0.018 J/kg of 4.5.
+// Two rocks of any shape, spin and friction that strike each other: restitution gives back no more than it took, also
+// where Newton's law would (Kane's paradox; solver.restitution_property has the impact alone). Bound: single precision
+// over the steps of contact, as above, and the push that removes an overlap: turning by 8.7 rad/s for 1 ms brings a
+// corner 0.35 m out 1.3e-5 m farther than its velocity says, two of them go out at 4/9 of 2.6e-5 m in a substep, 0.19
+// m/s: 0.018 J/kg of 4.5.
 TEST_P(Impact, RestitutionMakesNoEnergy) {
   engine::CounterRandom random(5);
   int rebounds = 0;

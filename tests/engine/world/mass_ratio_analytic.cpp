@@ -41,8 +41,8 @@ void add_tower(World& world, const Tower& tower, double x) {
 }
 
 // Statics: each interface carries M g, so the heavy cube sinks by (light + 1) M g / k, but for the light ones' own
-// weight, 1e-4 of it at most. The columns chosen do not buckle: M g L < k (side / 2)² / (light + 1). The settling from a fall
-// of that depth is damped in some ten steps; after 2 s what is left is round-off of the solution, 1e-8 of g h.
+// weight, 1e-4 of it at most. The columns chosen do not buckle: M g L < k (side / 2)² / (light + 1). The settling from
+// a fall of that depth is damped in some ten steps; after 2 s what is left is round-off of the solution, 1e-8 of g h.
 void expect_stands(const World& world, const Tower& tower, int first, double x) {
   const double weight = density * side * side * side * tower.ratio * 9.81;
   const double sinks = (tower.light + 1) * weight / tower.stiffness;
@@ -99,8 +99,8 @@ TEST(MassRatio, AHeavyPlateSlidesAsFarAsAnyBody) {
   }
 }
 
-// The law itself, by the independent residual: leaning stacks that fall, slide and topple. Bounds of friction that find no
-// fixed point leave up to 1e-2 in some steps (direct_solution.h), so it is the median that must be small, and
+// The law itself, by the independent residual: leaning stacks that fall, slide and topple. Bounds of friction that find
+// no fixed point leave up to 1e-2 in some steps (direct_solution.h), so it is the median that must be small, and
 // without the direct solution it is 1e-3 and more.
 TEST(MassRatio, FallingStacksKeepTheLaw) {
   std::vector<double> off;

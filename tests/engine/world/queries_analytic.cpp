@@ -79,8 +79,8 @@ TEST(PairForces, OfATowerAtRest) {
   expect_tower_at_rest(world);
 }
 
-// On the part as the part itself feels it: the sum of the pairs' single-precision impulses is the solver's own sum but for
-// round-off of 1e-6.
+// On the part as the part itself feels it: the sum of the pairs' single-precision impulses is the solver's own sum but
+// for round-off of 1e-6.
 TEST(PartWrench, IsWhatTheBodyFeels) {
   World world({}, one_material({.friction = 0.5, .stiffness = 1e8}));
   KinematicBody plate(at(0.1, 0, -0.25));
@@ -121,7 +121,8 @@ TEST(CastRay, FindsTheFirstSurface) {
   EXPECT_THROW(world.cast_ray({{0, 0, 5}, {0, 0, -2}}), std::invalid_argument);
 }
 
-// Free fall by steps of any length: a step from speed v goes h v - g h² / 2 and ends at v - g h; exact but for round-off.
+// Free fall by steps of any length: a step from speed v goes h v - g h² / 2 and ends at v - g h; exact but for
+// round-off.
 TEST(StepOfALength, FallsByIt) {
   World world({}, one_material({.friction = 0.5}));
   world.add_rock(box_body({0.2, 0.2, 0.2}), at(0, 0, 0));

@@ -74,9 +74,9 @@ TEST_P(Reach, AFollowerDoesNotPassTheOneThatIsStopped) {
   }
 }
 
-// A blade that stands when the step begins is driven to V within it by its motor, whose force knows no bound, or meets the
-// cube while it slides on: what lay ahead of it is pushed, at any thickness, gap and speed, whichever way it goes. The cube
-// goes with the blade or faster, so its centre stays before the blade's middle.
+// A blade that stands when the step begins is driven to V within it by its motor, whose force knows no bound, or meets
+// the cube while it slides on: what lay ahead of it is pushed, at any thickness, gap and speed, whichever way it goes.
+// The cube goes with the blade or faster, so its centre stays before the blade's middle.
 TEST_P(Reach, ABladeThatStartsAtOnceDoesNotPassARock) {
   std::mt19937 rng(1);
   std::uniform_real_distribution<double> unit(0, 1);

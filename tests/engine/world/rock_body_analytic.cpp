@@ -26,8 +26,8 @@ std::vector<Vector3d> moved(const ConvexPolyhedron& hull, const Eigen::Isometry3
 
 }  // namespace
 
-// A brick of sides 1, 2, 3 somewhere in space: mass ρ abc, moments m (b² + c²)/12 and so on by rising size. Round-off: some
-// hundred operations on numbers of size 10.
+// A brick of sides 1, 2, 3 somewhere in space: mass ρ abc, moments m (b² + c²)/12 and so on by rising size. Round-off:
+// some hundred operations on numbers of size 10.
 TEST(RockBody, FromTheHullOfABrick) {
   Eigen::Isometry3d pose = at(7, -3, 2);
   pose.rotate(Eigen::AngleAxisd(0.7, Vector3d(1, 2, 3).normalized()));

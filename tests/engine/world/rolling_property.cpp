@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-// A cylinder is round: it rolls on boxes, tiles and tilted plates as it does on a half-space, and for ever where nothing resists.
+// A cylinder is round: it rolls on boxes, tiles and tilted plates as it does on a half-space, and for ever where
+// nothing resists.
 #include <gtest/gtest.h>
 
 #include <cmath>

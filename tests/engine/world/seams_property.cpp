@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
-// A surface made of parts is one surface: what slides over the joints of a floor of tiles goes as far as on a half-space, and
-// what should stop it does.
+// A surface made of parts is one surface: what slides over the joints of a floor of tiles goes as far as on a
+// half-space, and what should stop it does.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -6,8 +6,9 @@
 #include <drawpoint/tests/support/blocks.hpp>
 #include <drawpoint/tests/support/scenes.hpp>
 
-// A tower stands while a sledge of 1 t is driven past it. They share no contact, so nothing of what the sledge does may keep
-// the solver from seeing that the tower stands: a step costs one iteration over its contacts, the sledge has its own.
+// A tower stands while a sledge of 1 t is driven past it. They share no contact, so nothing of what the sledge does may
+// keep the solver from seeing that the tower stands: a step costs one iteration over its contacts, the sledge has its
+// own.
 using namespace drawpoint;
 using engine::machine::JointKind;
 

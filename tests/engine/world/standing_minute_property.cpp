@@ -7,8 +7,8 @@
 
 // What stands by friction alone stands for a minute. Five seconds after it was let go nothing may move by more than a
 // micrometre in sixty: 1.7e-8 m/s. A substep may leave 1e-5 of the load unsolved, 6e-8 m/s of speed; only errors that
-// come and go stay within the bound, a bias of a third of them would not. And the solver must see that all stands: a step
-// costs one iteration then. No rolling or spinning resistance.
+// come and go stay within the bound, a bias of a third of them would not. And the solver must see that all stands: a
+// step costs one iteration then. No rolling or spinning resistance.
 using namespace drawpoint;
 using engine::World;
 using support::PlacedBlock;
@@ -66,12 +66,12 @@ TEST(StandsForAMinute, TowerOfTen) {
   expect_to_stand(tower, 4e-4);
 }
 
-// Seven cards of 18 kg weigh 1.2 kN: no contact closes by more than 1.2e-5 m, and a storey sinks by at most as much over
-// sin 20°, three times, where its feet, its edges and the card across them give way: 2 · 3 · 1.2e-5 / 0.34 m.
+// Seven cards of 18 kg weigh 1.2 kN: no contact closes by more than 1.2e-5 m, and a storey sinks by at most as much
+// over sin 20°, three times, where its feet, its edges and the card across them give way: 2 · 3 · 1.2e-5 / 0.34 m.
 TEST(StandsForAMinute, HouseOfCards) { expect_to_stand(support::CardHouse{}.cards(), 2.1e-4); }
 
-// Twice the limit of the thrust line would be 0.215 R; 0.13 R stands with joints that open and close by load over stiffness
-// (masonry_arch_validation derives 0.006 m for them).
+// Twice the limit of the thrust line would be 0.215 R; 0.13 R stands with joints that open and close by load over
+// stiffness (masonry_arch_validation derives 0.006 m for them).
 TEST(StandsForAMinute, Arch) { expect_to_stand(support::semicircular_arch(24, 2, 0.26, 0.6), 6e-3); }
 
 // Friction angle 38.7°. The block sinks by its weight over the stiffness, 3.1e-5 m.

@@ -6,7 +6,8 @@
 
 // A box is filled with rocks that nothing but friction holds: no rolling or spinning resistance. Five seconds after
 // they were let go the pile must stand: the centres drift by less than 0.1 mm/s in the mean, and no more than one in a
-// hundred by more than 1 mm/s. (A pile whose contacts jump between the ends of what carries a rock drifts by some 2 mm/s.)
+// hundred by more than 1 mm/s. (A pile whose contacts jump between the ends of what carries a rock drifts by some 2
+// mm/s.)
 using namespace drawpoint;
 
 TEST(StandingPile, HoldsStillWithoutRollingResistance) {
