@@ -94,6 +94,8 @@ TEST_F(SlurmArray, WhateverEndsARunIsItsReason) {
       "per response, in the order of Problem::responses");
   EXPECT_EQ(reason_of("exit 255"), "the run's process ended with exit code 255");
   EXPECT_EQ(reason_of("kill -SEGV $$"), "the run's process ended by signal SIGSEGV (Segmentation fault)");
+  EXPECT_EQ(reason_of("kill -KILL $$"),
+            "the run's process ended by signal SIGKILL (Killed), often because memory ran out");
   EXPECT_EQ(reason_of("echo 1 >&3; sleep 30", {.time_limit = 0.5}),
             "the run's process stopped after 0.5 s, its time limit");
   EXPECT_EQ(reason_of("echo before the end; exit 2", {.output = place_ / "printed"}),
@@ -195,6 +197,38 @@ TEST_F(SlurmArray, ATaskThatSomebodyCancelsHasFailedAndSaysSo) {
   ASSERT_EQ(ends.size(), 1U);
   EXPECT_EQ(describe(ends[0]),
             "ended without a reply, Slurm's state CANCELLED: somebody cancelled it, as by scancel");
+  expect_nothing_left();
+}
+
+/// A stand-in for squeue that gives a cancelled task another of Slurm's last words: no memory can run out here, for that
+/// takes cgroups, and Slurm's time limits are whole minutes.
+TEST_F(SlurmArray, WhatSlurmEndsATaskForIsToldApart) {
+  const std::map<std::string, std::string> meanings = {
+      {"OUT_OF_MEMORY", ": it needed more memory than Slurm gives it; ask for more with --mem"},
+      {"TIMEOUT", ": Slurm's time limit ended it; ask for more with --time"},
+      {"DEADLINE", ": its deadline passed"}};
+  const std::string path = std::getenv("PATH");
+  int id = 80;
+  for (const auto& [state, meaning] : meanings) {
+    const fs::path bin = place_ / state;
+    fs::create_directories(bin);
+    std::ofstream(bin / "squeue") << "#!/bin/sh\n/usr/bin/squeue \"$@\" | sed 's/ CANCELLED / " + state +
+                                         " /'\n";
+    fs::permissions(bin / "squeue", fs::perms::owner_all);
+    SlurmJobs jobs(options());
+    jobs.start(counted(++id, "sleep 60"));
+    jobs.wait(100ms);
+    cluster_->await([&] { return starts(id) == 1; });
+    setenv("PATH", (bin.string() + ":" + path).c_str(), 1);
+    detail::cancel_array(*jobs.arrays().begin());
+    std::vector<ProcessEnd> ends;
+    while (jobs.running() > 0) ends = jobs.wait(1s);
+    jobs.forget();
+    setenv("PATH", path.c_str(), 1);
+    ASSERT_EQ(ends.size(), 1U);
+    EXPECT_EQ(describe(ends[0]), "ended without a reply, Slurm's state " + state + meaning);
+    EXPECT_EQ(starts(id), 1) << "it is not tried again";
+  }
   expect_nothing_left();
 }
 

@@ -10,6 +10,7 @@ const speeds = [0.25, 1, 3, 10],
   usual = 1;
 const keyStep = 0.05,
   longStep = 1; // [s]
+const plotStep = 250; // [ms] between two states of the plots, on a slow machine
 const help = 'Space plays, the arrows go 0.05 s, with Shift 1 s, Home and End to the ends.';
 
 /// {node, plots, end()}: the controls of a view, the plots or null, and what stops both; keys are heard in
@@ -20,7 +21,8 @@ export function player(panel, times, view, area) {
   let t = times[panel.poster_frame ?? 0] ?? first,
     playing = false,
     speed = speeds[usual],
-    before = 0;
+    before = 0,
+    plotted = 0;
   const clock = el('span', {class: 'note'}),
     label = el('span', {class: 'label'});
   const slider = el('input', {
@@ -34,13 +36,19 @@ export function player(panel, times, view, area) {
   const button = el('button', {type: 'button', title: help, onclick: () => play(!playing)}, 'Play');
   const plots = panel.signals?.length ? scenePlots(panel.signals, times, (time) => seek(time)) : null;
   view.renderer.domElement.parentNode.append(label);
+  const showPlots = () => {
+    const now = performance.now();
+    if (!plots || (playing && view.pace.level && now - plotted < plotStep)) return;
+    plotted = now;
+    plots.show(t);
+  };
   const show = (time, draw = true) => {
     t = Math.min(last, Math.max(first, time));
     slider.value = t;
     clock.textContent = `${t.toFixed(2)} s of ${number(last)} s`;
     label.textContent = panel.frames[view.poses.place(t).k].label ?? '';
     label.hidden = !label.textContent;
-    plots?.show(t);
+    showPlots();
     if (draw) view.setTime(t);
   };
   const seek = (time) => {
@@ -58,6 +66,7 @@ export function player(panel, times, view, area) {
     if (on && t >= last) t = first;
     playing = on;
     view.hurry(on);
+    if (!on) showPlots();
     button.textContent = on ? 'Pause' : 'Play';
     before = performance.now();
     if (on) requestAnimationFrame(step);

@@ -63,4 +63,43 @@ export class Poses {
     quaternion.set(mix(4, g), mix(5, g), mix(6, g), mix(3, g)).normalize();
     return true;
   }
+
+  /// The time until which a body stays within `most` [m] of where it is at a place, turns counted at `radius`, or stays
+  /// hidden.
+  staysUntil(body, {t, k}, radius, most) {
+    const end = this.end[body];
+    let at = lastUpTo(this.frames, k, this.first[body], end),
+      left = most,
+      now = t;
+    for (; at + 1 < end; ++at) {
+      const next = this.time(at + 1);
+      if (this.hides(body, at) !== this.hides(body, at + 1)) return next;
+      if (!this.hides(body, at)) {
+        const way = (this.way(at, at + 1, radius) * (next - now)) / (next - this.time(at));
+        if (way > left) return now + ((next - now) * left) / way;
+        left -= way;
+      }
+      now = next;
+    }
+    return Infinity;
+  }
+
+  hides(body, at) {
+    return at < this.first[body] || this.values[7 * at] === absent;
+  }
+
+  time(at) {
+    return this.times[this.frames[at]];
+  }
+
+  /// How far a body goes from one of its poses to another [m].
+  way(a, b, radius) {
+    const {values, scale} = this;
+    let square = 0,
+      dot = 0;
+    for (let i = 0; i < 3; ++i) square += (values[7 * b + i] - values[7 * a + i]) ** 2;
+    for (let i = 3; i < 7; ++i) dot += values[7 * a + i] * values[7 * b + i];
+    const turn = 2 * Math.acos(Math.min(1, Math.abs(dot) / 32767 ** 2));
+    return scale * Math.sqrt(square) + radius * turn;
+  }
 }

@@ -10,6 +10,7 @@ const cell = 0.25, // [m]
   cover = 0.35, // of rock over the core [m]
   gap = 0.5, // above the rock below, over which a rock lies on it [m]
   rim = 3, // cells along a side through which one looks at the rock, where the core ends
+  slight = 0.05, // change of the core [m]
   highest = 16; // that a height can be [m]; rocks higher than this are left to themselves
 const dark = linear('#4a443d');
 
@@ -21,6 +22,7 @@ export class RockCover {
     this.ny = Math.ceil((y[1] - y[0]) / cell);
     this.top = new Float32Array(this.nx * this.ny);
     this.core = new Float32Array(this.nx * this.ny);
+    this.known = new Float32Array(this.nx * this.ny); // by who asks for changes
     this.bytes = new Uint8Array(this.nx * this.ny);
     this.texture = new THREE.DataTexture(this.bytes, this.nx, this.ny, THREE.RedFormat);
     this.texture.magFilter = this.texture.minFilter = THREE.LinearFilter;
@@ -99,6 +101,23 @@ export class RockCover {
             : Math.min(at(i, j), at(i - 1, j), at(i + 1, j), at(i, j - 1), at(i, j + 1));
         core[j * nx + i] = Math.max(0, least - cover);
       }
+  }
+
+  /// Where the core is another one than when this was last asked: a box {low, high} [m], or null.
+  changes() {
+    const {nx, core, known} = this,
+      low = [Infinity, Infinity, 0],
+      high = [-Infinity, -Infinity, 0];
+    core.forEach((z, k) => {
+      if (Math.abs(z - known[k]) < slight) return;
+      [k % nx, Math.floor(k / nx)].forEach((cells, i) => {
+        low[i] = Math.min(low[i], this.low[i] + (cells - 1) * cell);
+        high[i] = Math.max(high[i], this.low[i] + (cells + 2) * cell);
+      });
+      high[2] = Math.max(high[2], z, known[k]);
+      known[k] = z;
+    });
+    return low[0] < high[0] ? {low, high} : null;
   }
 
   /// Whether a sphere lies within the core.

@@ -3,7 +3,12 @@
 // The rocks of a scene at a time: where each one is, and which of them are drawn.
 
 import * as THREE from 'three';
+import {KeptRocks} from './kept_rocks.js';
 import {changed} from './scene_parts.js';
+
+// While pictures follow each other:
+const stale = 0.2, // [s] that what covers the pile's core may be late
+  unseen = 0.04; // [m] that a rock may be off
 
 const position = new THREE.Vector3(),
   turn = new THREE.Quaternion(),
@@ -22,44 +27,69 @@ export class Rocks {
     this.turns = new Float32Array(4 * this.count);
     this.radii = Float32Array.from(parts.flatMap((part) => part.members.map(() => part.radius)));
     this.there = new Uint8Array(this.count);
+    this.reads = new Float64Array(2 * this.count).fill(NaN); // [s] when each was read, and until when that will do
+    this.moved = false; // since what covers the core was reckoned, for the time `covered`
+    this.kept = new KeptRocks(this);
   }
 
-  setTime(place) {
-    let k = 0;
+  /// hurried: pictures follow each other, and rocks may be late by what one does not see.
+  setTime(place, hurried) {
+    const {reads, places, turns, there, radii} = this;
+    this.time = place.t;
+    let k = -1;
     for (const part of this.parts)
       for (const body of part.members) {
-        this.there[k] = this.poses.read(body, place, position, turn) ? 1 : 0;
-        position.toArray(this.places, 3 * k);
-        turn.toArray(this.turns, 4 * k);
         ++k;
+        const [from, to] = reads.subarray(2 * k, 2 * k + 2);
+        if (hurried && from <= place.t && place.t <= to) continue;
+        there[k] = this.poses.read(body, place, position, turn) ? 1 : 0;
+        position.toArray(places, 3 * k);
+        turn.toArray(turns, 4 * k);
+        reads[2 * k] = place.t;
+        reads[2 * k + 1] = this.poses.staysUntil(body, place, radii[k], unseen);
+        this.kept.look(k);
+        this.moved = true;
       }
-    this.cover?.update(this.count, this.places, this.radii, this.there);
+    const soon = hurried && Math.abs(place.t - this.covered) < stale;
+    if (!this.moved || soon) return;
+    this.moved = false;
+    this.cover?.update(this.count, places, this.radii, there);
+    this.covered = place.t;
     this.uncovered = null;
   }
 
-  /// Writes those that a camera may see into the parts; of all cameras without one. How many these are.
-  choose(camera = null) {
+  findUncovered(camera) {
     if (camera && this.cover?.seenFrom(camera.position)) this.uncovered = null;
-    this.uncovered ??= Uint8Array.from(this.there, (is, k) => (is && !this.isCovered(k) ? 1 : 0));
-    if (camera)
-      frustum.setFromProjectionMatrix(matrix.multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse));
-    let k = 0,
-      chosen = 0;
+    if (this.uncovered) return;
+    this.uncovered = Uint8Array.from(this.there, (is, k) => (is && !this.isCovered(k) ? 1 : 0));
+    this.kept.lookAtAll();
+  }
+
+  /// For isSeen.
+  aim(camera) {
+    frustum.setFromProjectionMatrix(matrix.multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse));
+  }
+
+  isSeen(camera, k) {
+    sphere.center.fromArray(this.places, 3 * k);
+    sphere.radius = this.radii[k];
+    return frustum.intersectsSphere(sphere) && !this.isBehind(camera, k);
+  }
+
+  /// Writes those that a camera may see into the parts; of all cameras without one.
+  choose(camera = null) {
+    this.findUncovered(camera);
+    if (camera) this.aim(camera);
+    this.writeThose((k) => this.uncovered[k] && (!camera || this.isSeen(camera, k)));
+  }
+
+  writeThose(drawn) {
+    let k = 0;
     for (const part of this.parts) {
       let n = 0;
-      for (let m = 0; m < part.members.length; ++m, ++k) {
-        if (!this.uncovered[k]) continue;
-        if (camera) {
-          sphere.center.fromArray(this.places, 3 * k);
-          sphere.radius = this.radii[k];
-          if (!frustum.intersectsSphere(sphere) || this.isBehind(camera, k)) continue;
-        }
-        this.write(part, n++, k, m);
-      }
+      for (let m = 0; m < part.members.length; ++m, ++k) if (drawn(k)) this.write(part, n++, k, m);
       changed(part, n);
-      chosen += n;
     }
-    return chosen;
   }
 
   growBox(box) {

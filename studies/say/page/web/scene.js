@@ -11,6 +11,7 @@ import {Poses} from './poses.js';
 import {Pace, Picture} from './picture.js';
 import {ShadowMap} from './shadow_map.js';
 import {Stage} from './stage.js';
+import {StillPicture} from './still_picture.js';
 import {onTheme} from './theme.js';
 
 const shadowDelay = 0.5; // [s]
@@ -48,16 +49,24 @@ export function sceneViewer(panel) {
   }
 }
 
+/// What is behind an opaque canvas is not drawn with it. Its picture stays, for who saves or prints it.
+function rendererOf(canvas) {
+  const given = {alpha: false, antialias: false, depth: true, stencil: false, preserveDrawingBuffer: true};
+  const context = canvas.getContext('webgl2', given);
+  return new THREE.WebGLRenderer({canvas, context: context ?? undefined, antialias: false});
+}
+
 export class View {
   constructor(panel, poses) {
     this.poses = poses;
     this.pace = new Pace();
     this.pixels = null; // of the picture per pixel of the page; the screen's
-    this.renderer = new THREE.WebGLRenderer({antialias: false, preserveDrawingBuffer: true});
+    this.renderer = rendererOf(document.createElement('canvas'));
     this.renderer.setPixelRatio(mostPixels());
     this.picture = new Picture(this.renderer);
     this.stage = new Stage(panel, poses);
     this.shadow = new ShadowMap(this.renderer, this.stage.light);
+    this.still = new StillPicture(this.renderer, this.stage.light);
     this.followed = panel.follow ?? null;
     this.following = false;
     this.setTime(poses.times[panel.poster_frame ?? 0] ?? poses.times[0], false);
@@ -96,6 +105,7 @@ export class View {
     this.resizing?.disconnect();
     this.controls.dispose();
     this.shadow.end();
+    this.still.end();
     this.picture.end();
     this.renderer.dispose();
     this.renderer.forceContextLoss();
@@ -154,7 +164,7 @@ export class View {
 
   setTime(t, draw = true) {
     this.place = this.poses.place(t);
-    this.stage.setTime(this.place);
+    this.stage.setTime(this.place, this.pace.level > 0);
     this.posed = true;
     if (this.following) this.keepUp();
     if (draw) this.render();
@@ -177,7 +187,7 @@ export class View {
   /// While pictures follow each other, each may be coarser than the last one, where the machine is slow.
   hurry(on) {
     this.pace.hurry(on);
-    if (!on) this.render();
+    if (!on) this.setTime(this.place.t);
   }
 
   usePixels() {
@@ -194,6 +204,8 @@ export class View {
     if (this.posed) this.updateShadow();
     stage.see(camera);
     stage.beCoarse(pace.level > 0);
+    if (pace.level && this.still.draw(stage, camera)) return;
+    stage.rocks.choose(camera);
     this.picture.draw(stage.scene, camera, !pace.level);
   }
 
@@ -203,9 +215,16 @@ export class View {
     const anew = !pace.level || !(Math.abs(place.t - this.shadowTime) < shadowDelay);
     if (anew) {
       stage.rocks.choose();
+      this.shadow.drawResting(stage.resting);
       this.shadowTime = place.t;
     }
-    this.shadow.update(stage.resting, stage.moving, anew);
+    const anchored = this.followed !== null;
+    this.shadow.drawMoving(
+      stage.moving,
+      stage.movingBox,
+      anchored ? this.anchor() : new THREE.Vector3(),
+      anchored && pace.level > 0,
+    );
     this.posed = pace.level > 0;
   }
 }

@@ -27,9 +27,10 @@ export class Stage {
     this.light = sharedLight();
     this.surfaces = []; // opaque meshes, whose materials change with quality
     this.scene = new THREE.Scene();
+    this.fixed = new THREE.Scene(); // the drift
     this.resting = new THREE.Scene(); // rock, which casts shadows
     this.moving = new THREE.Scene(); // what else does
-    this.scene.add(this.resting, this.moving);
+    this.scene.add(this.fixed, this.resting, this.moving);
     const materials = new Map();
     const material = (opacity) => {
       if (!materials.has(opacity)) materials.set(opacity, surfacesOf(this.light, opacity));
@@ -64,7 +65,7 @@ export class Stage {
       const mesh = new THREE.Mesh(facets.geometry(1).geometry, material);
       mesh.frustumCulled = false;
       mesh.renderOrder = 2; // behind what stands in it
-      this.scene.add(mesh);
+      this.fixed.add(mesh);
       this.surfaces.push(mesh);
       return mesh;
     });
@@ -91,13 +92,24 @@ export class Stage {
     for (const mesh of this.surfaces) mesh.material = !coarse ? smooth : mesh.parent === this.resting ? simple : quick;
   }
 
+  /// Draws what a still picture does not show.
+  withoutStill(draw) {
+    const core = this.rocks.cover?.mesh,
+      visible = core?.visible;
+    this.fixed.visible = false;
+    if (core) core.visible = false;
+    draw();
+    this.fixed.visible = true;
+    if (core) core.visible = visible;
+  }
+
   /// For a picture by this camera; from over the roof one looks past it.
   see(camera) {
     if (this.roof) this.roof.visible = camera.position.z < this.panel.drift.height;
-    this.rocks.choose(camera);
   }
 
-  setTime(place) {
+  /// hurried: pictures follow each other.
+  setTime(place, hurried) {
     for (const part of this.others) {
       const there = this.poses.read(part.members[0], place, position, turn);
       position.toArray(part.place);
@@ -105,8 +117,22 @@ export class Stage {
       turn.toArray(part.turn);
       changed(part);
     }
-    this.rocks.setTime(place);
+    this.movingBox = this.boxOfMoving();
+    this.rocks.setTime(place, hurried);
     if (this.headLamps?.length) this.aimHeadLamps(place);
+  }
+
+  /// Of what moves and is solid.
+  boxOfMoving() {
+    const box = new THREE.Box3();
+    for (const part of this.others) {
+      if (!part.solid || !part.place[3]) continue;
+      const {centre, radius} = sphereOf(part);
+      box
+        .expandByPoint(position.copy(centre).addScalar(radius))
+        .expandByPoint(position.copy(centre).addScalar(-radius));
+    }
+    return box;
   }
 
   aimHeadLamps(place) {
@@ -125,10 +151,10 @@ export class Stage {
       solid = this.others.filter((part) => part.solid);
     for (const part of solid.length ? solid : this.others) {
       if (!part.place[3]) continue;
-      part.mesh.geometry.computeBoundingSphere();
-      const {center, radius} = part.mesh.geometry.boundingSphere;
-      position.copy(center).applyQuaternion(turn.fromArray(part.turn)).add(new THREE.Vector3().fromArray(part.place));
-      box.expandByPoint(position.clone().addScalar(radius)).expandByPoint(position.clone().addScalar(-radius));
+      const {centre, radius} = sphereOf(part);
+      box
+        .expandByPoint(position.copy(centre).addScalar(radius))
+        .expandByPoint(position.copy(centre).addScalar(-radius));
     }
     this.rocks.growBox(box);
     const sphere = box.getBoundingSphere(new THREE.Sphere());
@@ -142,9 +168,17 @@ export class Stage {
 
 const surfacesOf = (light, opacity) => ({
   smooth: surfaceMaterial(light, {opacity, quality: 'SMOOTH'}),
-  quick: surfaceMaterial(light, {opacity}),
+  quick: surfaceMaterial(light, {opacity, quality: 'QUICK'}),
   simple: surfaceMaterial(light, {opacity, quality: 'SIMPLE'}),
 });
+
+/// Around a part where it is: {centre, radius}.
+function sphereOf({mesh, turn: turned, place}) {
+  if (!mesh.geometry.boundingSphere) mesh.geometry.computeBoundingSphere();
+  const {center, radius} = mesh.geometry.boundingSphere;
+  const centre = center.clone().applyQuaternion(turn.fromArray(turned)).add(new THREE.Vector3().fromArray(place));
+  return {centre, radius};
+}
 
 const insideOf = ({from, length, width}) => ({x: [from, length], y: [-width / 2, width / 2]});
 

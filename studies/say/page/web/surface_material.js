@@ -3,11 +3,16 @@
 // How surfaces of a scene look. Light is reckoned per vertex, for facets are flat and drawing in software pays per
 // triangle and per pixel; a pixel adds the shadow and the grain of the material.
 //
+// What is kept of a still picture (still_picture.js) is the same in parts: STILL writes what is always there, what the
+// key light adds where nothing shades it, and what the head lamps' light falls on, with the normal in the places that
+// are left; laterLight puts the three together, and the head lamps and the shadow with them.
+//
 // Attributes per vertex: position, normal, colour (linear), finish (grain, glow, dust: each 0 to 1). Per instance:
 // place (x, y, z, and 1, or 0 where it hides), turn (quaternion x y z w), tint (linear).
 
 import * as THREE from 'three';
 import {grainTexture} from './grain.js';
+import {beamed, folded, packed, seen, turned, within} from './shader_parts.js';
 
 export const mostLamps = 8;
 
@@ -23,8 +28,10 @@ export function sharedLight() {
     keyColour: {value: new THREE.Color(1, 1, 1)},
     skyColour: {value: new THREE.Color(1, 1, 1)},
     groundColour: {value: new THREE.Color(1, 1, 1)},
-    shadow: {value: null},
+    shadow: {value: null}, // of what rests
     shadowMatrix: {value: new THREE.Matrix4()},
+    movingShadow: {value: null},
+    movingMatrix: {value: new THREE.Matrix4()},
     grain: {value: grainTexture()},
     heights: {value: null},
     heightsBox: {value: new THREE.Vector4(0, 0, 0, 0)}, // low x, low y, 1 / extents
@@ -33,32 +40,32 @@ export function sharedLight() {
   };
 }
 
-const turned = `
-  vec3 turned(vec4 q, vec3 v) { return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v); }`;
-
-// From light to what a screen shows.
-const seen = `
-  vec3 seen(vec3 light) { return sqrt(light * (1.0 + 0.18 * light) / (1.0 + light)); }`;
-
 const vertexShader = `
   precision highp float;
   in vec3 position, normal, colour, finish;
   in vec4 place, turn;
   in vec3 tint;
-  uniform mat4 viewMatrix, projectionMatrix, shadowMatrix;
-  uniform vec4 lamps[${mostLamps}], head, heightsBox;
-  uniform vec3 lampColour, headWay, keyWay, keyColour, skyColour, groundColour;
+  uniform mat4 viewMatrix, projectionMatrix, shadowMatrix, movingMatrix;
+  uniform vec4 lamps[${mostLamps}], heightsBox;
+  uniform vec3 lampColour, keyWay, keyColour, skyColour, groundColour;
   uniform float heightsScale;
   uniform sampler2D heights;
-  #ifdef SIMPLE
+  #if defined(SIMPLE) || defined(QUICK)
   precision highp sampler2DShadow;
-  uniform sampler2DShadow shadow;
+  uniform sampler2DShadow shadow, movingShadow;
+  #endif
+  #ifdef SIMPLE
   out vec3 shade;
   #else
-  out vec3 near, far, inShadow, grainAt;
+  out vec3 near, far, inShadow, inMoving, grainAt;
+  #endif
+  #ifdef STILL
+  out vec3 own, facing;
   #endif
   ${turned}
   ${seen}
+  ${beamed}
+  ${within}
 
   // Of the sky that a place sees: less the deeper it lies below the rock around it.
   float openness(vec3 p, vec3 n) {
@@ -78,30 +85,54 @@ const vertexShader = `
       float facing = max(0.0, (dot(n, way) * inversesqrt(square) + 0.2) / 1.2);
       light += lampColour * (lamps[k].w * facing / (1.0 + 0.55 * square));
     }
-    vec3 beam = p - head.xyz;
-    float reach = length(beam), along = dot(beam, headWay) / reach;
-    float beamed = smoothstep(0.80, 0.97, along) * max(0.0, -dot(n, beam) / reach);
-    light += vec3(1.0, 0.95, 0.85) * (head.w * beamed / (1.0 + 0.06 * reach * reach));
+  #ifndef STILL
+    light += beamed(p, n);
+  #endif
     float open = openness(p, n);
     vec3 dusty = mix(colour * tint, vec3(0.33, 0.29, 0.24), finish.z * max(0.0, n.z));
     vec3 always = dusty * (light * open + 6.0 * finish.y);
     vec3 unshaded = dusty * keyColour * (max(0.0, dot(n, keyWay)) * sqrt(open) * (1.0 - finish.y));
-    vec3 onMap = (shadowMatrix * vec4(p + 0.04 * n, 1.0)).xyz;
+    vec4 above = vec4(p + 0.04 * n, 1.0);
+    vec3 onMap = (shadowMatrix * above).xyz, onMoving = within((movingMatrix * above).xyz);
     gl_Position = projectionMatrix * (viewMatrix * vec4(p, 1.0));
   #ifdef SIMPLE
-    shade = seen(always + unshaded * texture(shadow, onMap));
+    shade = seen(always + unshaded * (texture(shadow, onMap) * texture(movingShadow, onMoving)));
   #else
     near = always;
     far = unshaded;
+  #ifdef QUICK
+    far *= texture(shadow, onMap);
+  #endif
     inShadow = onMap;
+    inMoving = onMoving;
     vec3 a = abs(normal);
     vec2 flatly = a.z > a.x && a.z > a.y ? position.xy : a.x > a.y ? position.yz : position.xz;
     grainAt = vec3(0.55 * flatly + 7.0 * tint.xy, finish.x);
+  #endif
+  #ifdef STILL
+    own = dusty * open;
+    facing = n;
   #endif
   }`;
 
 const fragmentShader = `
   precision highp float;
+  #ifdef STILL
+  layout(location = 0) out vec4 always;
+  layout(location = 1) out vec4 keyed;
+  layout(location = 2) out vec4 lit;
+  in vec3 near, far, grainAt, own, facing;
+  uniform sampler2D grain;
+  ${packed}
+  ${folded}
+  void main() {
+    float bright = 1.0 + grainAt.z * (texture(grain, grainAt.xy).r - 0.5);
+    vec2 normal = folded(facing);
+    always = vec4(packed(bright * near), normal.x);
+    keyed = vec4(packed(bright * far), normal.y);
+    lit = vec4(packed(bright * own), 1.0);
+  }
+  #else
   out vec4 pixel;
   uniform float shown;
   #ifdef SIMPLE
@@ -109,25 +140,32 @@ const fragmentShader = `
   void main() { pixel = vec4(shade, shown); }
   #else
   precision highp sampler2DShadow;
-  in vec3 near, far, inShadow, grainAt;
-  uniform sampler2DShadow shadow;
+  in vec3 near, far, inShadow, inMoving, grainAt;
+  uniform sampler2DShadow shadow, movingShadow;
   uniform sampler2D grain;
   ${seen}
+  float softly(sampler2DShadow map, vec3 at) {
+    vec2 off = vec2(0.7, -0.7) / float(textureSize(map, 0).x);
+    float sum = texture(map, at + vec3(off.xx, 0.0)) + texture(map, at + vec3(off.xy, 0.0));
+    return 0.25 * (sum + texture(map, at + vec3(off.yx, 0.0)) + texture(map, at + vec3(off.yy, 0.0)));
+  }
   float lit() {
-  #ifdef SMOOTH
-    vec2 off = vec2(0.7, -0.7) / float(textureSize(shadow, 0).x);
-    float sum = texture(shadow, inShadow + vec3(off.xx, 0.0)) + texture(shadow, inShadow + vec3(off.xy, 0.0));
-    sum += texture(shadow, inShadow + vec3(off.yx, 0.0)) + texture(shadow, inShadow + vec3(off.yy, 0.0));
-    return 0.25 * sum;
+  #ifdef QUICK
+    return texture(movingShadow, inMoving);
+  #elif defined(SMOOTH)
+    return softly(shadow, inShadow) * softly(movingShadow, inMoving);
   #else
-    return texture(shadow, inShadow);
+    return texture(shadow, inShadow) * texture(movingShadow, inMoving);
   #endif
   }
   void main() {
     vec3 light = near + far * lit();
+  #ifndef QUICK
     light *= 1.0 + grainAt.z * (texture(grain, grainAt.xy).r - 0.5);
+  #endif
     pixel = vec4(seen(light), shown);
   }
+  #endif
   #endif`;
 
 const depthVertexShader = `
@@ -145,7 +183,8 @@ const depthFragmentShader = `
   out vec4 pixel;
   void main() { pixel = vec4(1.0); }`;
 
-/// quality: SMOOTH, with soft edges of shadows; SIMPLE, without grain and with shadows per vertex; or "".
+/// quality: SMOOTH, with soft edges of shadows; QUICK, without grain and with the shadow of what rests per
+/// vertex; SIMPLE, with both shadows so; STILL, in parts; or "".
 export function surfaceMaterial(light, {opacity = 1, quality = ''} = {}) {
   const see = opacity < 1;
   return new THREE.RawShaderMaterial({
@@ -169,3 +208,5 @@ export const depthMaterial = () =>
     side: THREE.DoubleSide,
     colorWrite: false,
   });
+
+export const stillMaterial = (light) => surfaceMaterial(light, {quality: 'STILL'});
