@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <drawpoint/kriging/detail/cholesky.hpp>
 #include <drawpoint/kriging/model.hpp>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -122,6 +123,7 @@ inline Model append(const Model& model, const Eigen::MatrixXd& X, const Eigen::V
   if (s.noise.size()) s.noise = detail::stacked(s.noise, detail::affine(noise_variance, 1.0 / s.noise_unit));
   const double raised = detail::extend_factor(s);
   detail::estimate(s);
+  if (s.other) s.other = std::make_shared<const detail::ModelState>(append(Model(*s.other), X, y).state());
   s.report.message +=
       "; " + std::to_string(y.size()) + (y.size() == 1 ? " run" : " runs") + " appended without a new fit";
   if (raised > 0) {

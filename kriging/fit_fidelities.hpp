@@ -154,22 +154,16 @@ inline void check_levels(const std::vector<FidelityLevel>& levels, const Fidelit
   }
 }
 
-/// Three digits.
-inline std::string brief(double value) {
-  char buffer[32];
-  std::snprintf(buffer, sizeof buffer, "%.3g", value);
-  return buffer;
-}
-
 inline std::string sentence_of(const FidelityLevelReport& level) {
   const std::string name = "level \"" + level.name + "\"";
   if (level.rho.size() == 0)
     return name +
            ": what the level below says at its runs cannot be told from its trend, or from the error of that "
            "level's model, so rho is left out";
-  std::string text = name + ": rho " + brief(level.rho[0]) + " +- " + brief(level.rho_standard_error[0]);
+  std::string text =
+      name + ": rho " + brief_text(level.rho[0]) + " +- " + brief_text(level.rho_standard_error[0]);
   if (level.rho.size() > 1) text += " at the centre";
-  return text + ", " + brief(100.0 * level.explained) +
+  return text + ", " + brief_text(100.0 * level.explained) +
          " % of the variance is the level below's, the rest the difference's";
 }
 
@@ -177,10 +171,10 @@ inline std::string sentence_of(const FidelityComparison& c) {
   if (std::isnan(c.gain))
     return "the true runs cannot tell whether the cheaper levels help: without one of them the others do not "
            "tell rho from the trend; leave-one-out RMSE " +
-           brief(c.rmse_alone) + " without the cheaper levels; make more true runs";
-  const std::string errors = ": leave-one-out RMSE " + brief(c.rmse) + " with the cheaper levels, " +
-                             brief(c.rmse_alone) + " without; gain in log score " + brief(c.gain) + " +- " +
-                             brief(c.standard_error) + " per run";
+           brief_text(c.rmse_alone) + " without the cheaper levels; make more true runs";
+  const std::string errors = ": leave-one-out RMSE " + brief_text(c.rmse) + " with the cheaper levels, " +
+                             brief_text(c.rmse_alone) + " without; gain in log score " + brief_text(c.gain) +
+                             " +- " + brief_text(c.standard_error) + " per run";
   if (c.gain > c.standard_error) return "the cheaper levels help" + errors;
   if (c.gain < -c.standard_error)
     return "the cheaper levels do not help, a fit of the true runs alone is better" + errors +

@@ -9,7 +9,9 @@
 ///   variance    s²(x)   = s² [1 − rᵀR⁻¹r + uᵀ(FᵀR⁻¹F)⁻¹u],  u = f − FᵀR⁻¹r
 ///   covariance  s²(x,z) = s² [c(x, z) − rₓᵀR⁻¹r_z + uₓᵀ(FᵀR⁻¹F)⁻¹u_z]
 /// The last terms are what estimating β adds; unless FitOptions says otherwise there is one more, gᵀVg for
-/// what estimating θ, the exponents and λ adds (detail/parameter_uncertainty.hpp). This is about the latent
+/// what estimating θ, the exponents and λ adds (detail/parameter_uncertainty.hpp). Where the runs do not tell noise
+/// from roughness the variance holds both explanations: with s² of the one and, of probability p, ŷₒ and sₒ² of the
+/// other, it is s² + p max(0, sₒ² + (ŷₒ − ŷ)² − s²) (detail/exact_or_noisy.hpp). This is about the latent
 /// function, the response without noise; its variance does not vanish at the runs when λ > 0. A new noisy
 /// observation has the variance s²(x) + λ s², where runs of different noise have their mean. Units: mean in
 /// the unit of y, variance in its square. Cost a point: mean n d, variance n² more, covariance of m points m
@@ -21,6 +23,7 @@
 #include <drawpoint/kriging/detail/model_state.hpp>
 #include <drawpoint/kriging/detail/parameter_uncertainty.hpp>
 #include <drawpoint/kriging/options.hpp>
+#include <memory>
 #include <string>
 
 namespace drawpoint::kriging {
@@ -72,6 +75,8 @@ class Model {
   /// s², unit of y squared.
   double process_variance() const { return s_.y_scale * s_.y_scale * s_.process_variance; }
   double noise_variance() const { return s_.nugget * process_variance(); }  ///< λ s², unit of y squared
+  /// Probability that there is no noise, which variances hold as well; 0 where only one explanation is likely.
+  double doubt() const { return s_.doubt; }
   /// Coefficient of the trend's first term, the constant unless the user's basis begins with another.
   double trend() const { return s_.y_centre + (s_.X.rows() ? s_.y_scale * s_.gls.beta[0] : 0.0); }
   /// One entry a term, unit of y over the unit of the term, in the order of trend_function(). The first term
@@ -124,7 +129,15 @@ class Model {
 
   Eigen::VectorXd variance_of(const Eigen::MatrixXd& X, const Eigen::MatrixXd& scaled) const;
 
+  // What the other explanation expects of the square of the error of each mean, m entries.
+  Eigen::VectorXd squares_by_other(const Eigen::MatrixXd& X, const Eigen::VectorXd& mean) const;
+
+  // To the derivative of a variance, and to a covariance of points.
+  void add_doubt(const Eigen::VectorXd& x, PredictionGradient& g) const;
+  void add_doubt(const Eigen::MatrixXd& X, Eigen::MatrixXd& C) const;
+
   detail::ModelState s_;
+  std::shared_ptr<const Model> other_;
   Eigen::MatrixXd runs_;       // X transposed: a run's coordinates stand together
   Eigen::MatrixXd stretched_;  // the same times √θ
   Eigen::MatrixXd triangle_;   // Tᵀ

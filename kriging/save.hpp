@@ -17,6 +17,7 @@
 
 #include <Eigen/Core>
 #include <filesystem>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -31,24 +32,27 @@ namespace drawpoint::kriging {
 namespace detail {
 
 inline Json json_of(const ModelState& s) {
-  return {{"input", {{"centre", json_vector(s.input.centre)}, {"factor", json_vector(s.input.factor)}}},
-          {"response", {{"centre", s.y_centre}, {"scale", s.y_scale}, {"observed", json_vector(s.observed)}}},
-          {"correlation", json_of(s.correlation)},
-          {"noise", json_of_noise(s)},
-          {"trend", json_of(s.trend.terms)},
-          {"runs", {{"X", json_matrix(s.X)}, {"F", json_matrix(s.F)}, {"y", json_vector(s.y)}}},
-          {"factor", json_vector(packed_lower(s.L))},
-          {"solution",
-           {{"beta", json_vector(s.gls.beta)},
-            {"alpha", json_vector(s.gls.alpha)},
-            {"B", json_matrix(s.gls.B)},
-            {"T", json_matrix(s.gls.T)},
-            {"sum_of_squares", s.gls.sum_of_squares}}},
-          {"parameter_spread", json_matrix(s.parameter_spread)},
-          {"process_variance", s.process_variance},
-          {"log_likelihood", json_number(s.log_likelihood)},
-          {"constant_variance", json_number(s.constant_variance)},
-          {"report", json_of(s.report)}};
+  Json json{
+      {"input", {{"centre", json_vector(s.input.centre)}, {"factor", json_vector(s.input.factor)}}},
+      {"response", {{"centre", s.y_centre}, {"scale", s.y_scale}, {"observed", json_vector(s.observed)}}},
+      {"correlation", json_of(s.correlation)},
+      {"noise", json_of_noise(s)},
+      {"trend", json_of(s.trend.terms)},
+      {"runs", {{"X", json_matrix(s.X)}, {"F", json_matrix(s.F)}, {"y", json_vector(s.y)}}},
+      {"factor", json_vector(packed_lower(s.L))},
+      {"solution",
+       {{"beta", json_vector(s.gls.beta)},
+        {"alpha", json_vector(s.gls.alpha)},
+        {"B", json_matrix(s.gls.B)},
+        {"T", json_matrix(s.gls.T)},
+        {"sum_of_squares", s.gls.sum_of_squares}}},
+      {"parameter_spread", json_matrix(s.parameter_spread)},
+      {"process_variance", s.process_variance},
+      {"log_likelihood", json_number(s.log_likelihood)},
+      {"constant_variance", json_number(s.constant_variance)},
+      {"report", json_of(s.report)}};
+  if (s.other) json["other"] = {{"probability", s.doubt}, {"model", json_of(*s.other)}};
+  return json;
 }
 
 inline void read_solution(const JsonReader& in, Eigen::Index n, Eigen::Index q, LeastSquares& gls) {
@@ -87,10 +91,15 @@ inline ModelState state_of(const JsonReader& in) {
   s.log_likelihood = in.at("log_likelihood").number(false);
   s.constant_variance = in.at("constant_variance").number(false);
   s.report = report_of(in.at("report"));
+  if (!in.has("other")) return s;
+  s.doubt = in.at("other").at("probability").number();
+  s.other = std::make_shared<const ModelState>(state_of(in.at("other").at("model")));
+  if (!(s.doubt > 0 && s.doubt < 1)) in.at("other").at("probability").fail("it is not between 0 and 1");
+  if (s.other->X.cols() != s.X.cols()) in.at("other").fail("it has other variables");
   return s;
 }
 
-inline constexpr FileKind model_file{"drawpoint kriging model", 2, true};
+inline constexpr FileKind model_file{"drawpoint kriging model", 2, true, true};
 
 inline Model model_of_text(const std::string& text, const std::string& file) {
   return opened(model_file, text, file, [](const JsonReader& in) { return Model(state_of(in)); });

@@ -21,7 +21,9 @@ const here = dirname(fileURLToPath(import.meta.url)),
 
 /// What decides how a picture looks. The simulator's name changes with what it simulates.
 const web = (...names) => names.map((name) => `studies/say/page/web/${name}.js`);
-const scene = web('scene', 'stage', 'scene_parts', 'surface_material', 'drift_mesh', 'tyre_mesh', 'rock_cover');
+const scene = web(
+  ...['scene', 'stage', 'scene_parts', 'surface_material', 'shader_parts', 'shadow_map', 'drift_mesh', 'tyre_mesh', 'rock_cover'],
+);
 const drawnBy = {
   'machine_and_front.jpg': [
     'engine/loading/libraries.hpp',

@@ -18,6 +18,9 @@
 ///   times what noisy runs ever gained.
 /// Three of 1152 sets of noisy runs are taken for exact (docs/measurements/kriging.md), with 0.76 to 1.13 of the
 /// error; where a response is rough for its runs noise of a third of its deviation mostly is.
+/// Where only some of these hold, or without noise the runs are unlikelier by no more than hardly_likely, they do not tell
+/// which of the two it is: the mean stays that of the noisy model, and variances hold both explanations (model.hpp), each
+/// with its probability by the likelihoods. So a response that is taken for noise by mistake has intervals that hold it.
 /// Cost: two searches from few starts where the default finds noise, a whole one where these come near, and up to two
 /// for each of sixteen simulated sets where only the last is left.
 
@@ -27,13 +30,16 @@
 #include <drawpoint/kriging/detail/simulated_gains.hpp>
 #include <drawpoint/kriging/model.hpp>
 #include <drawpoint/kriging/options.hpp>
+#include <memory>
 #include <string>
 
 namespace drawpoint::kriging::detail {
 
 inline constexpr double least_gain = 2.0;
 inline constexpr double sure_gain = 30.0;
-inline constexpr double as_well = 1.1;  ///< a mean square up to so many times another one is as good
+inline constexpr double hardly_likely = -5.0;  ///< in ln L: a probability of 0.007
+inline constexpr double little_noise = 1e-4;   ///< over the variance of the runs: less matters to no interval
+inline constexpr double as_well = 1.1;         ///< a mean square up to so many times another one is as good
 
 /// Whether the noise that a fit found may be the default's expectation.
 inline bool may_be_expected(const Model& noisy, const TrainingData& data, const FitOptions& options) {
@@ -72,9 +78,27 @@ inline Model said_exact(const Model& exact, const Model& noisy, double gain) {
   ModelState state = exact.state();
   const std::string part = state.X.rows() > many ? ", by " + std::to_string(many) + " of them," : "";
   state.report.message +=
-      "; the model meets the runs, which are" + part + " e^" + text(std::round(10.0 * gain) / 10.0) +
-      " times as likely without noise as with noise of " + text(std::sqrt(noisy.noise_variance())) +
+      "; the model meets the runs, which are" + part + " e^" + brief_text(gain) +
+      " times as likely without noise as with noise of " + brief_text(std::sqrt(noisy.noise_variance())) +
       ": repeat a run if the simulator may have some";
+  return Model(std::move(state));
+}
+
+/// Whether it matters that the runs may be exact, which gain so much without noise.
+inline bool leaves_doubt(const Model& noisy, const TrainingData& data, double gain) {
+  return gain > hardly_likely && data.X.rows() <= many &&
+         noisy.noise_variance() > little_noise * data.y_scale * data.y_scale;
+}
+
+/// The noisy model with the exact one beside it, as likely as what the runs gain by that.
+inline Model in_doubt(const Model& noisy, const Model& exact, double gain) {
+  ModelState state = noisy.state();
+  state.other = std::make_shared<const ModelState>(exact.state());
+  state.doubt = 1.0 / (1.0 + std::exp(-gain));
+  state.report.message += "; the runs do not tell whether there is noise of " +
+                          brief_text(std::sqrt(noisy.noise_variance())) + " or none, of probability " +
+                          brief_text(state.doubt) +
+                          ": variances hold both; repeat a run to know";
   return Model(std::move(state));
 }
 

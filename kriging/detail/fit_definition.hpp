@@ -45,17 +45,26 @@ inline Model fit_to(const Eigen::MatrixXd& X, const TrainingData& data, const Fi
   return leave_one_out_error(blind.state()) < leave_one_out_error(model.state()) ? blind : model;
 }
 
-/// The same, but without noise where the runs are clearly likelier without any.
+/// Whether runs that gain so much without noise are exact: `exact` is the model that meets them.
+inline bool are_exact(const Model& exact, const Model& noisy, const TrainingData& data, double gain,
+                      const FitOptions& options) {
+  return is_more_than_noise(exact, data, options) && predicts_as_well(exact, noisy) &&
+         (gain >= sure_gain || beyond_chance(gain, noisy.state(), data, without_noise(options), options));
+}
+
+/// The same, but without noise where the runs are clearly likelier without any, and with both explanations where the
+/// runs do not tell.
 inline Model fit_either(const Eigen::MatrixXd& X, const TrainingData& data, const FitOptions& options) {
   const Model noisy = fit_to(X, data, options);
   if (!may_be_expected(noisy, data, options)) return noisy;
   const FitOptions without = without_noise(options);
   const double gain = gain_of(data, without, options);
-  if (!(gain > least_gain)) return noisy;
-  const Model exact = fit_to(X, data, with_exact_runs(options));
-  if (!is_more_than_noise(exact, data, options) || !predicts_as_well(exact, noisy)) return noisy;
-  if (gain < sure_gain && !beyond_chance(gain, noisy.state(), data, without, options)) return noisy;
-  return said_exact(exact, noisy, gain);
+  if (gain > least_gain) {
+    const Model exact = fit_to(X, data, with_exact_runs(options));
+    if (are_exact(exact, noisy, data, gain, options)) return said_exact(exact, noisy, gain);
+  }
+  return leaves_doubt(noisy, data, gain) ? in_doubt(noisy, fit_to(X, data, with_few_searches(without)), gain)
+                                         : noisy;
 }
 
 /// Fits the first run of each site, as exact runs; the others join that model.

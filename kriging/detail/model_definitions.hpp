@@ -22,6 +22,7 @@ DRAWPOINT_KRIGING_INLINE Model::Model(detail::ModelState state)
   stretched_ = runs_;
   for (Eigen::Index j = 0; j < runs_.cols(); ++j)
     for (Eigen::Index k = 0; k < runs_.rows(); ++k) stretched_(k, j) *= std::sqrt(s_.correlation.theta[k]);
+  if (s_.other) other_ = std::make_shared<const Model>(*s_.other);
   if (s_.X.rows() == 0) return;
   triangle_ = s_.gls.T.transpose();
   effects_ = detail::parameter_effects(s_);
@@ -37,8 +38,24 @@ DRAWPOINT_KRIGING_INLINE Prediction Model::predict(const Eigen::MatrixXd& X, Tar
     std::copy(mean.begin(), mean.end(), p.mean.begin() + i);
     std::copy(variance.begin(), variance.end(), p.variance.begin() + i);
   }
+  if (other_) {
+    const Eigen::VectorXd squares = squares_by_other(X, p.mean);
+    for (Eigen::Index i = 0; i < squares.size(); ++i)
+      p.variance[i] += s_.doubt * std::max(0.0, squares[i] - p.variance[i]);
+  }
   if (target == Target::observation) p.variance = detail::affine(p.variance, 1.0, noise_variance());
   return p;
+}
+
+DRAWPOINT_KRIGING_INLINE Eigen::VectorXd Model::squares_by_other(const Eigen::MatrixXd& X,
+                                                                 const Eigen::VectorXd& mean) const {
+  const Prediction other = other_->predict(X);
+  Eigen::VectorXd squares(mean.size());
+  for (Eigen::Index i = 0; i < squares.size(); ++i) {
+    const double apart = other.mean[i] - mean[i];
+    squares[i] = other.variance[i] + apart * apart;
+  }
+  return squares;
 }
 
 DRAWPOINT_KRIGING_INLINE Eigen::VectorXd Model::mean(const Eigen::MatrixXd& X) const {
@@ -72,7 +89,21 @@ DRAWPOINT_KRIGING_INLINE PredictionGradient Model::gradient(const Eigen::VectorX
       detail::difference(detail::transposed_product(dv, v), detail::transposed_product(at.slopes, w));
   g.variance = detail::affine(g.variance, 2.0 * process_variance());
   if (!effects_.none()) add_parameter_slopes(at, g.variance);
+  if (other_) add_doubt(x, g);
   return g;
+}
+
+// The derivative of the variance without doubt, where it is the larger one, is that with it.
+DRAWPOINT_KRIGING_INLINE void Model::add_doubt(const Eigen::VectorXd& x, PredictionGradient& g) const {
+  const Eigen::MatrixXd X = x.transpose(), scaled = s_.input.apply(X);
+  const double mean = mean_of(X, scaled)[0], variance = variance_of(X, scaled)[0];
+  const Prediction other = other_->predict(X);
+  const double apart = other.mean[0] - mean;
+  if (other.variance[0] + apart * apart <= variance) return;
+  const PredictionGradient by_other = other_->gradient(x);
+  for (Eigen::Index k = 0; k < g.variance.size(); ++k)
+    g.variance[k] +=
+        s_.doubt * (by_other.variance[k] + 2.0 * apart * (by_other.mean[k] - g.mean[k]) - g.variance[k]);
 }
 
 DRAWPOINT_KRIGING_INLINE Eigen::VectorXd Model::mean_gradient(const Eigen::VectorXd& x) const {
@@ -99,7 +130,21 @@ DRAWPOINT_KRIGING_INLINE Eigen::MatrixXd Model::covariance(const Eigen::MatrixXd
   detail::add_product(detail::block_of(W), detail::block_of(W), 1.0, detail::block_of(C),
                       detail::Part::lower);
   detail::mirror_lower(C);
+  if (other_) add_doubt(X, C);
   return C;
+}
+
+// C + D E D, E what the other explanation expects of products of errors, D diagonal: variances come out as of predict().
+DRAWPOINT_KRIGING_INLINE void Model::add_doubt(const Eigen::MatrixXd& X, Eigen::MatrixXd& C) const {
+  const Eigen::VectorXd apart = detail::difference(other_->mean(X), mean(X));
+  Eigen::MatrixXd E = other_->covariance(X);
+  for (Eigen::Index j = 0; j < E.cols(); ++j)
+    for (Eigen::Index i = 0; i < E.rows(); ++i) E(i, j) += apart[i] * apart[j];
+  Eigen::VectorXd share(C.rows());
+  for (Eigen::Index i = 0; i < share.size(); ++i)
+    share[i] = E(i, i) > C(i, i) ? std::sqrt(s_.doubt * (E(i, i) - C(i, i)) / E(i, i)) : 0.0;
+  for (Eigen::Index j = 0; j < E.cols(); ++j)
+    for (Eigen::Index i = 0; i < E.rows(); ++i) C(i, j) += share[i] * share[j] * E(i, j);
 }
 
 DRAWPOINT_KRIGING_INLINE void Model::check(const Eigen::MatrixXd& X) const {

@@ -16,6 +16,7 @@
 #include <drawpoint/kriging/detail/trend.hpp>
 #include <drawpoint/kriging/options.hpp>
 #include <limits>
+#include <memory>
 
 namespace drawpoint::kriging::detail {
 
@@ -40,6 +41,9 @@ struct ModelState {
   double process_variance = 0;                                      ///< s²
   double log_likelihood = std::numeric_limits<double>::infinity();  ///< for y in its unit
   double constant_variance = 0;                                     ///< unit of y squared
+  /// Another explanation of the same runs, without noise, and the probability of it; null: there is none.
+  std::shared_ptr<const ModelState> other;
+  double doubt = 0;
   FitReport report;
 };
 

@@ -49,6 +49,8 @@ class JsonReader {
                              "; the file is damaged or of another kind: save the model again");
   }
 
+  bool has(const char* key) const { return json_.is_object() && json_.contains(key); }
+
   JsonReader at(const char* key) const {
     if (!json_.is_object() || !json_.contains(key)) fail("\"" + std::string(key) + "\" is missing");
     return {json_[key], file_, place_.empty() ? key : place_ + "/" + key};
@@ -121,7 +123,10 @@ class JsonReader {
 struct FileKind {
   const char* format;
   int version;
-  bool structures = false;  ///< whether there are such
+  bool structures = false;    ///< whether there are such
+  bool explanations = false;  ///< whether there may be two of them
+
+  int newest() const { return version + (explanations ? 3 : structures ? 2 : 1); }
 };
 
 inline bool has_categories(const Json& model) {
@@ -134,6 +139,7 @@ inline bool has_categories(const Json& model) {
 
 /// What the version of a model is beyond that of its kind.
 inline int added_version(const Json& model) {
+  if (model.contains("other")) return 3;
   if (model.contains("correlation") && model["correlation"].contains("structure")) return 2;
   return has_categories(model) ? 1 : 0;
 }
@@ -160,10 +166,11 @@ auto opened(const FileKind& kind, const std::string& text, const std::string& fi
   const auto or_with = [&](int more, const char* what) {
     return ", or " + std::to_string(kind.version + more) + " with " + what;
   };
-  if (version < kind.version || version > kind.version + (kind.structures ? 2 : 1))
+  if (version < kind.version || version > kind.newest())
     in.at("version").fail("it is " + std::to_string(version) + "; allowed is " +
                           std::to_string(kind.version) + or_with(1, "categories") +
-                          (kind.structures ? or_with(2, "a structure") : ""));
+                          (kind.structures ? or_with(2, "a structure") : "") +
+                          (kind.explanations ? or_with(3, "two explanations") : ""));
   if (in.at("checksum").text() != checksum(in.at("model").json().dump()))
     in.at("checksum").fail("it is not that of the model");
   if (version != kind.version + added_version(in.at("model").json()))

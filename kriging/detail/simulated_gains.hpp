@@ -26,10 +26,15 @@ inline constexpr int few_starts = 2, few_candidates = 32;
 inline constexpr int simulated_sets = 16;
 inline constexpr double clear_lead = 3.0;  ///< in ln L
 
-/// ln L, but for a constant, of the highest maximum that few searches find; of a part of many runs.
-inline double highest_likelihood(const TrainingData& data, FitOptions options) {
+inline FitOptions with_few_searches(FitOptions options) {
   options.starts = std::min(options.starts, few_starts);
   options.candidates = std::min(options.candidates, few_candidates);
+  return options;
+}
+
+/// ln L, but for a constant, of the highest maximum that few searches find; of a part of many runs.
+inline double highest_likelihood(const TrainingData& data, const FitOptions& given) {
+  const FitOptions options = with_few_searches(given);
   const LikelihoodProblem problem = likelihood_problem(data, options);
   Likelihood likelihood(problem.X.rows() <= many ? problem : thinned(problem));
   const Box box = parameter_box(data, likelihood, options);

@@ -12,6 +12,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <drawpoint/doe/problem.hpp>
 #include <drawpoint/kriging/detail/dense.hpp>
 #include <drawpoint/kriging/detail/levels.hpp>
@@ -68,6 +69,13 @@ inline constexpr double largest = 1e150, smallest_range = 1e-150;
 }
 
 inline std::string text(double value) { return doe::detail::number_text(value); }
+
+/// With three digits.
+inline std::string brief_text(double value) {
+  char buffer[32];
+  std::snprintf(buffer, sizeof buffer, "%.3g", value);
+  return buffer;
+}
 
 inline bool is_usable(double value) { return std::abs(value) <= largest; }
 

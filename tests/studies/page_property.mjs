@@ -9,7 +9,7 @@ import {byShade, colourAt} from '../../studies/say/page/web/cloud.js';
 import {cyclesOf, withBodies} from '../../studies/say/page/web/cycle_panels.js';
 import {csv, tsv} from '../../studies/say/page/web/delimited.js';
 import {number, setting} from '../../studies/say/page/web/format.js';
-import {predictor} from '../../studies/say/page/web/kriging.js';
+import {predictor, scaledMean} from '../../studies/say/page/web/kriging.js';
 import {meanInterval, scaledDeviation} from '../../studies/say/page/web/kriging_error.js';
 import {ranked, rateOfRun, turnTexts} from '../../studies/say/page/web/haul_rates.js';
 import {brokenText, symbols} from '../../studies/say/page/web/limits.js';
@@ -161,6 +161,20 @@ test('what the parameters leave unknown adds to the band', () => {
   const h = [1.5, 0.5], slope = -0.3 * (-0.5 * h[0] ** 2 * Math.exp(-0.3 * h[0] ** 2) + 0.5 * h[1] ** 2 * Math.exp(-0.3 * h[1] ** 2));
   const without = scaledDeviation(twoRuns(0.3, 0.1))([0.5]);
   assert.ok(Math.abs(scaledDeviation(surface)([0.5]) - Math.hypot(without, 1.5 + 0.7 * slope)) < 1e-12);
+});
+
+test('another explanation of the runs widens the band by its probability', () => {
+  const surface = twoRuns(0.3, 0.1), other = twoRuns(2, 1e-6), own = scaledDeviation(surface), wider = scaledDeviation(other);
+  other.constant += 5; // its mean lies 5 away
+  const both = scaledDeviation({...surface, other: {probability: 0.25, surface: other}});
+  for (const x of [[0], [0.5], [3]]) {
+    const variance = own(x) ** 2, apart = 5 + scaledMean({...other, constant: 0})(x) - scaledMean({...surface, constant: 0})(x);
+    const wanted = Math.sqrt(variance + 0.25 * (wider(x) ** 2 + apart ** 2 - variance));
+    assert.ok(Math.abs(both(x) - wanted) < 1e-12, `${both(x)} ${wanted}`);
+  }
+  const sure = {...surface, error: {...surface.error, process_variance: 1e-9}};
+  const never = scaledDeviation({...surface, other: {probability: 0.9, surface: sure}});
+  assert.equal(never([0]), own([0]));
 });
 
 const box = {variables: [{name: 'a', lower: 0, upper: 2}, {name: 'b', lower: 0, upper: 10}, {name: 'tool', kind: 'categorical', lower: 0, upper: 2, levels: ['x', 'y', 'z']}]};

@@ -114,18 +114,28 @@ json to_json(const SurfaceError& e) {
           {"beta_effects", to_json(e.beta_effects)}};
 }
 
-json to_json(const kriging::TransformedModel& fitted, const std::optional<Surface>& s) {
-  const kriging::Model& model = fitted.model();
+/// With what it knows of its error, and another explanation that this holds (kriging/model.hpp).
+json formula_of(const kriging::TransformedModel& fitted, const std::optional<Surface>& s) {
   json formula;
   if (s) formula = to_json(*s);
   if (const auto error = surface_error(fitted); s && error) formula["error"] = to_json(*error);
+  const kriging::Model& model = fitted.model();
+  if (!s || model.doubt() == 0) return formula;
+  const kriging::TransformedModel other(kriging::Model(*model.state().other), fitted.transform(),
+                                        fitted.observed());
+  formula["other"] = {{"probability", model.doubt()}, {"surface", formula_of(other, surface(other))}};
+  return formula;
+}
+
+json to_json(const kriging::TransformedModel& fitted, const std::optional<Surface>& s) {
+  const kriging::Model& model = fitted.model();
   return {{"scale", to_string(fitted.transform().scale)},
           {"theta", to_json(model.theta())},
           {"nugget", model.nugget()},
           {"process_variance", model.process_variance()},
           {"log_likelihood", model.log_likelihood()},
           {"message", model.message()},
-          {"surface", std::move(formula)}};
+          {"surface", formula_of(fitted, s)}};
 }
 
 json to_json(const kriging::Validation& v, const kriging::MeanError& error, const doe::Response& response) {

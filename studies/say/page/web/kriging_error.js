@@ -34,8 +34,22 @@ export function meanInterval(surface) {
   };
 }
 
-/// (x) => the standard deviation of z, of surface.error. R is factored when it is asked for the first time.
+/// (x) => the standard deviation of z, of surface.error and surface.other.
 export function scaledDeviation(surface) {
+  const own = scaledVariance(surface);
+  if (!surface.other) return (x) => Math.sqrt(own(x));
+  const {probability, surface: other} = surface.other,
+    byOther = scaledVariance(other),
+    z = scaledMean(surface),
+    otherZ = scaledMean(other);
+  return (x) => {
+    const variance = own(x);
+    return Math.sqrt(variance + probability * Math.max(0, byOther(x) + (otherZ(x) - z(x)) ** 2 - variance));
+  };
+}
+
+/// Of one explanation. R is factored when it is asked for the first time.
+function scaledVariance(surface) {
   const {centre, factor, X, terms, error} = surface;
   let L = null;
   return (x) => {
@@ -44,7 +58,7 @@ export function scaledDeviation(surface) {
     const r = X.map((run) => correlation(surface, s, run)),
       f = terms.map(([a, b]) => (a < 0 ? 1 : s[a]) * (b < 0 ? 1 : s[b]));
     const rest = Math.max(1 - square(solved(L, r)) + square(trendPart(error, f, r)), 0);
-    return Math.sqrt(error.process_variance * rest + square(parameterPart(surface, s, f, r)));
+    return error.process_variance * rest + square(parameterPart(surface, s, f, r));
   };
 }
 
