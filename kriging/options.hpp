@@ -21,8 +21,9 @@ namespace drawpoint::kriging {
 /// What is known of the noise of the runs.
 enum class Noise {
   /// Nothing but that it is the same everywhere: λ is estimated. Runs at equal points that all agree tell that
-  /// there is none: they count once, as with `none`. Runs without repeats are taken for exact
-  /// where they gain more likelihood so than chance gives, unless may_be_exact is false (detail/exact_or_noisy.hpp).
+  /// there is none: they count once, as with `none`. Runs without repeats are taken for exact where they gain more
+  /// likelihood so than chance gives, and variances hold both explanations where they do not tell, unless may_be_exact
+  /// is false (detail/exact_or_noisy.hpp).
   nugget,
   known,         ///< the variance of each run, FitOptions::noise_variance; λ follows from s²
   pooled,        ///< the same everywhere, on the scale that is fitted: each of noise_variance estimates it
@@ -103,8 +104,8 @@ struct FitOptions {
   /// few runs that cannot tell noise from none are taken to have some, or error bars are too narrow. 0 for a
   /// simulator that has none: 0 to 5 % less error in the mean (docs/measurements/kriging.md).
   double nugget_power = 0.5;
-  /// Whether runs without repeats may be taken for exact (Noise::nugget). False where the simulator is known to have
-  /// noise, of whatever size.
+  /// Whether runs without repeats may be exact (Noise::nugget). False where the simulator is known to have noise, of
+  /// whatever size.
   bool may_be_exact = true;
   /// Whether variances hold what the estimates of θ, the exponents and λ leave unknown
   /// (detail/parameter_uncertainty.hpp).

@@ -59,8 +59,8 @@ class Kriging:
     ----------
     correlation : "gaussian", "power_exponential", "matern32" or "matern52".
     trend : "constant", "linear", "quadratic" or "blind" (terms chosen by the runs).
-    deterministic : True: the simulator has no noise, and the model meets the runs. False: it has some. None: the
-        runs tell, where they are clearly likelier without any.
+    deterministic : True: the simulator has no noise, and the model meets the runs. False: it has some. None: it may;
+        where the runs do not tell, standard deviations hold both, and message_ says so.
     noise_kind : what `noise` of fit() is: "known", the variance of each run; "pooled", estimates of one variance;
         "proportional", variances up to a factor.
     structure : "product"; "isotropic", one theta for all inputs; "additive", a sum of functions of one input.
