@@ -86,7 +86,9 @@ inline Signal signal_of(const TransformedModel& model, const doe::Problem& probl
                 .error = std::sqrt(std::max(detail::mean_of(own.variance), 0.0))};
   if (!std::isfinite(signal.error)) return signal;
   const bool constant = model.model().state().X.rows() == 0;
-  signal.ratio = detail::variance_over(scaled.mean) / detail::mean_of(scaled.variance);
+  if (constant) signal.spread = 0;  // but for round-off
+  signal.ratio = constant ? std::numeric_limits<double>::quiet_NaN()
+                          : detail::variance_over(scaled.mean) / detail::mean_of(scaled.variance);
   signal.gain = constant ? std::numeric_limits<double>::quiet_NaN() : detail::left_out_gain(model.model());
   signal.open = !constant && detail::leaves_open(model.model(), options);
   signal.flat = !signal.open && detail::says_nothing(model.model(), signal, options);

@@ -56,6 +56,8 @@ class CsvReader {
       if (rest_.empty()) return stop("the file ends inside a line");
       if (rest_.front() == '"' && record.back().empty()) {
         if (!quoted(record.back())) return std::nullopt;
+        if (!rest_.empty() && rest_.find_first_of(",\r\n") != 0)
+          return stop("text stands behind the closing quote of a field; double quotes inside of one");
       }
       if (rest_.empty()) return stop("the file ends inside a line");
       const char c = take();

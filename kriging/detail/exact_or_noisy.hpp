@@ -18,11 +18,11 @@
 ///   times what noisy runs ever gained.
 /// Three of 1152 sets of noisy runs are taken for exact (docs/measurements/kriging.md), with 0.76 to 1.13 of the
 /// error; where a response is rough for its runs noise of a third of its deviation mostly is.
-/// Where only some of these hold, or without noise the runs are unlikelier by no more than hardly_likely, they do not tell
-/// which of the two it is: the mean stays that of the noisy model, and variances hold both explanations (model.hpp), each
-/// with its probability by the likelihoods. So a response that is taken for noise by mistake has intervals that hold it.
-/// Cost: two searches from few starts where the default finds noise, a whole one where these come near, and up to two
-/// for each of sixteen simulated sets where only the last is left.
+/// Where only some of these hold, or without noise the runs are unlikelier by no more than hardly_likely, they do not
+/// tell which of the two it is: the mean stays that of the noisy model, and variances hold both explanations
+/// (model.hpp), each with its probability by the likelihoods. So a response that is taken for noise by mistake has
+/// intervals that hold it. Cost: two searches from few starts where the default finds noise, a whole one where these
+/// come near, and up to two for each of sixteen simulated sets where only the last is left.
 
 #include <cmath>
 #include <drawpoint/kriging/detail/box_shares.hpp>

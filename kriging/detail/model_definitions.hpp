@@ -134,7 +134,8 @@ DRAWPOINT_KRIGING_INLINE Eigen::MatrixXd Model::covariance(const Eigen::MatrixXd
   return C;
 }
 
-// C + D E D, E what the other explanation expects of products of errors, D diagonal: variances come out as of predict().
+// C + D E D, E what the other explanation expects of products of errors, D diagonal: variances come out as of
+// predict().
 DRAWPOINT_KRIGING_INLINE void Model::add_doubt(const Eigen::MatrixXd& X, Eigen::MatrixXd& C) const {
   const Eigen::VectorXd apart = detail::difference(other_->mean(X), mean(X));
   Eigen::MatrixXd E = other_->covariance(X);

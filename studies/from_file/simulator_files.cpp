@@ -36,20 +36,27 @@ SimulatorFiles summed(const std::set<fs::path>& files, const fs::path& folder) {
   return {{files.begin(), files.end()}, doe::detail::hash_digits(hash)};
 }
 
+bool is_study(const fs::path& folder) {
+  std::error_code ignored;
+  return fs::exists(folder / "study.db", ignored);
+}
+
+/// Without the folders of studies, where programs write.
 void add_below(const fs::path& place, std::set<fs::path>& files) {
   std::error_code ignored;
   if (fs::is_regular_file(place, ignored)) files.insert(place.lexically_normal());
-  if (!fs::is_directory(place, ignored)) return;
-  for (const auto& entry : fs::recursive_directory_iterator(place, ignored))
-    if (entry.is_regular_file(ignored)) files.insert(entry.path().lexically_normal());
+  if (!fs::is_directory(place, ignored) || is_study(place)) return;
+  fs::recursive_directory_iterator entry(place, ignored), end;
+  for (; entry != end; entry.increment(ignored)) {
+    if (entry->is_directory(ignored) && is_study(entry->path())) entry.disable_recursion_pending();
+    if (entry->is_regular_file(ignored)) files.insert(entry->path().lexically_normal());
+  }
 }
 
-/// What is hidden, what others keep there, and folders of studies, where programs write.
+/// What is hidden, what others keep there, and folders of studies.
 bool passed_over(const fs::path& name) {
   const std::string text = name.filename().string();
-  std::error_code ignored;
-  return text.starts_with('.') || text == "__pycache__" || text == "node_modules" ||
-         fs::exists(name / "study.db", ignored);
+  return text.starts_with('.') || text == "__pycache__" || text == "node_modules" || is_study(name);
 }
 
 /// False where there is too much to look at.

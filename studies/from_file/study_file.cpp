@@ -294,7 +294,8 @@ Defaults defaults_from(const Section& in) {
 
 json parsed(const fs::path& file) {
   std::error_code ignored;
-  if (!fs::exists(file, ignored) || fs::is_directory(file, ignored) || !std::ifstream(file))
+  if (!fs::exists(file, ignored) || fs::is_directory(file, ignored) || fs::is_character_file(file, ignored) ||
+      !std::ifstream(file))
     throw std::runtime_error(file.string() + ": cannot be read; give the JSON file of a study");
   const std::string text = content_of(file);
   std::vector<std::set<std::string>> keys;  // of the objects that are open
@@ -325,6 +326,33 @@ Word parsed_word(const std::string& word) {
   return {word.substr(colon + 1), word.substr(1, colon - 1)};
 }
 
+/// Of a study file and all that its command names.
+std::string checksum_of(const json& content, const Command& command) {
+  return doe::detail::checksum(content.dump() + command.simulator);
+}
+
+/// Whether file and program are still those.
+bool is_still(const fs::path& file, const std::string& checksum) {
+  try {
+    const json content = parsed(file);
+    return checksum_of(content, command_from(Section(content, file, ""), file.parent_path())) == checksum;
+  } catch (const std::runtime_error&) {
+    return false;  // gone, or half written
+  }
+}
+
+/// A run while which the program changed is no run of either.
+StudyFunction unchanged(StudyFunction program, const fs::path& file, const std::string& checksum) {
+  return [program = std::move(program), file, checksum](const Eigen::VectorXd& x, doe::Seed seed,
+                                                        const RunContext& context) -> doe::Outcome {
+    const doe::Outcome outcome = program(x, seed, context);
+    if (outcome.failed() || is_still(file, checksum)) return outcome;
+    return doe::Failure{
+        "the study file or its program changed while the run was made; give the command again, with "
+        "--retry-failed"};
+  };
+}
+
 }  // namespace
 
 Study study_from(const std::string& word) {
@@ -344,7 +372,7 @@ Study study_from(const std::string& word) {
               "elsewhere");
   const Command command = elsewhere ? Command{} : command_from(in, fs::absolute(file).parent_path());
   study.simulator.note = command.note;
-  const std::string checksum = doe::detail::checksum(content.dump() + command.simulator);
+  const std::string checksum = checksum_of(content, command);
   if (!expected.empty() && expected != checksum)
     in.fail("it or its program changed while the study ran; give the command again, with --retry-failed");
   study.simulator.name = command.simulator;
@@ -355,7 +383,7 @@ Study study_from(const std::string& word) {
                                 .attempts = in.integer("attempts", 1, 1),
                                 .streams = streams_from(in)};
   try {
-    study.black_box = external_program(study.problem, program);
+    study.black_box = unchanged(external_program(study.problem, program), fs::absolute(file), checksum);
   } catch (const std::invalid_argument& e) {
     in.fail(e.what());
   }

@@ -110,10 +110,10 @@ void check_runs(int runs, const std::vector<Run>& all) {
 
 /// With the points of a table made elsewhere.
 void add_imported(const Settings& settings, const doe::Problem& problem, const std::vector<Run>& existing,
-                  std::vector<Run>& added) {
+                  const std::vector<Correction>& corrections, std::vector<Run>& added) {
   if (settings.plan.imported.empty()) return;
   const std::vector<Run> imported =
-      imported_runs(settings.plan.imported, problem, everything(existing, added));
+      imported_runs(settings.plan.imported, problem, everything(existing, added), corrections);
   added.insert(added.end(), imported.begin(), imported.end());
 }
 
@@ -232,7 +232,7 @@ void check_options(const Study& study, const OptionValues& given) {
 void check_new_study(const Study& study, const Settings& settings) {
   check_options(study, settings.options);
   std::vector<Run> imported;
-  add_imported(settings, study.problem, {}, imported);
+  add_imported(settings, study.problem, {}, {}, imported);
   check_runs(settings.plan.runs.value_or(study.defaults.runs), imported);
   check_something_to_stop(settings, settings.plan.adaptive.value_or(1));
   check_target(settings.plan.target.value_or(0.0), settings.plan.until.value_or(""),
@@ -250,7 +250,7 @@ Store plan_study(const Study& study, const Folder& folder, const Settings& setti
   const int validation = settings.plan.validation.value_or(resumes ? count_points(existing, Kind::validation)
                                                                    : study.defaults.validation);
   auto added = runs_to_add(store.identity(), existing, runs, validation);
-  add_imported(settings, study.problem, existing, added);
+  add_imported(settings, study.problem, existing, store.corrections(), added);
   check_runs(runs, everything(existing, added));
   Sampling kept = store.sampling();
   if (!resumes) kept.points = study.defaults.adaptive;

@@ -6,12 +6,14 @@
 #include <drawpoint/studies/run/run_files.h>
 #include <drawpoint/studies/run/run_process.h>
 #include <drawpoint/studies/run/spot_check.h>
+#include <drawpoint/studies/run/store/left_out.h>
 #include <unistd.h>
 #include <drawpoint/doe/detail/csv.hpp>
 #include <drawpoint/doe/detail/stranger_file.hpp>
 
 #include <algorithm>
 #include <cstdio>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -22,11 +24,15 @@ namespace {
 /// Beside the numbers of runs, whose files the check has no business with.
 constexpr std::int64_t checked_id = 0;
 
-/// One of the quicker half, another one as the runs grow more; nothing where none was made here.
-const Run* run_to_check(const std::vector<Run>& runs) {
+/// One of the quicker half, another one as the runs grow more; nothing where none was made here and left as it came.
+const Run* run_to_check(const std::vector<Run>& runs, const std::vector<Correction>& corrections) {
+  std::set<std::int64_t> corrected;
+  for (const Correction& c : corrections)
+    if (c.what == replace_word) corrected.insert(c.run);
   std::vector<const Run*> made;
   for (const Run& run : runs)
-    if (run.status == Status::done && run.kind != Kind::imported && !run.started.empty())
+    if (run.status == Status::done && run.kind != Kind::imported && !run.started.empty() &&
+        !corrected.contains(run.id))
       made.push_back(&run);
   if (made.empty()) return nullptr;
   std::stable_sort(made.begin(), made.end(),
@@ -72,7 +78,7 @@ std::string complaint(const Run& run, const doe::Outcome& outcome, const doe::Pr
 void spot_check(const Store& store, const Folder& folder, const Settings& settings, int message_descriptor) {
   if (!settings.execution.spot_check) return;
   const std::vector<Run> runs = store.runs();
-  const Run* run = run_to_check(runs);
+  const Run* run = run_to_check(runs, store.corrections());
   if (run == nullptr) return;
   const std::string name = "run " + std::to_string(run->id);
   dprintf(message_descriptor, "making %s again%s, to see that the simulator is the same ...\n", name.c_str(),

@@ -200,8 +200,8 @@ TEST_F(SlurmArray, ATaskThatSomebodyCancelsHasFailedAndSaysSo) {
   expect_nothing_left();
 }
 
-/// A stand-in for squeue that gives a cancelled task another of Slurm's last words: no memory can run out here, for that
-/// takes cgroups, and Slurm's time limits are whole minutes.
+/// A stand-in for squeue that gives a cancelled task another of Slurm's last words: no memory can run out here, for
+/// that takes cgroups, and Slurm's time limits are whole minutes.
 TEST_F(SlurmArray, WhatSlurmEndsATaskForIsToldApart) {
   const std::map<std::string, std::string> meanings = {
       {"OUT_OF_MEMORY", ": it needed more memory than Slurm gives it; ask for more with --mem"},

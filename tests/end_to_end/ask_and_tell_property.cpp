@@ -152,6 +152,9 @@ TEST_F(AskAndTell, ARowIsAsLongAsItsHeader) {
   EXPECT_TRUE(contains(tell("run,wear,run\n1,1,2\n").err, "the column \"run\" stands there twice"));
   EXPECT_TRUE(contains(tell("run,wear,who,who\n1,1,a,b\n").err, "the column \"who\" stands there twice"));
   EXPECT_TRUE(contains(tell("run,wear,wear [mm]\n1,1,2\n").err, "are of one quantity; remove one"));
+  EXPECT_TRUE(contains(tell("run,wear,,\n1,1,5,75\n").err, "\"5\" stands under no name"));
+  EXPECT_TRUE(contains(tell("run,wear\n1,\"1\"5\n").err, "behind the closing quote"));
+  EXPECT_TRUE(contains(tell("run,wear,status\n1,1,OK\n").err, "\"status\" is \"OK\"; allowed are done"));
   EXPECT_EQ(count("status = 'done'"), 0);
 }
 
@@ -163,6 +166,10 @@ TEST_F(AskAndTell, CorrectionsAreALedger) {
   EXPECT_TRUE(contains(tell("run,wear\n1,0.4\n").err, "or correct the run with --replace --why TEXT"));
   const std::string file = " --file " + table().string();
   EXPECT_EQ(on_bench("tell --replace" + file).code, 2) << "without a reason";
+  EXPECT_TRUE(contains(on_bench("ask --runs 6").out, "6,"));
+  std::ofstream(table()) << "run,wear\n6,1\n";
+  EXPECT_TRUE(contains(on_bench("tell --replace --why 'so it is'" + file).err, "run 6 has no result yet"));
+  std::ofstream(table()) << "run,wear\n1,0.4\n";
   const Ended replaced = on_bench("tell --replace --why 'a decimal comma'" + file);
   ASSERT_EQ(replaced.code, 0) << replaced.err;
   EXPECT_TRUE(contains(replaced.out, "1 of them had ended otherwise"));

@@ -268,3 +268,50 @@ TEST_F(HostileProgram, FilesAndVersionAreOfTheSimulator) {
   EXPECT_TRUE(
       contains(run(study(good_reply, R"(, "files": ["none.*"])") + options).err, "\"none.*\" names nothing"));
 }
+
+// The program changes while run 2 is made: what that run gives belongs to neither.
+TEST_F(HostileProgram, ARunWhileTheSimulatorChangesIsNotKept) {
+  const std::string changes = "n=$(cat " + (place_ / "count").string() +
+                              " 2>/dev/null || echo 0); echo $((n + 1)) >" + (place_ / "count").string() +
+                              "; [ $n != 1 ] || echo '# changed' >>" + (place_ / "model.sh").string() + "; " +
+                              good_reply;
+  std::ofstream(place_ / "model.sh") << "K=1\n";
+  const Ended end = run(study(changes) + " --runs 4 --validation 0 --jobs 1" + out());
+  EXPECT_NE(end.code, 0);
+  EXPECT_TRUE(contains(query("select reason from runs where id = 2"), "changed while the run was made"));
+  EXPECT_EQ(query("select count(*) from runs where status = 'done'"), "1");
+}
+
+// A folder of results below the study file, where programs write, is no file of the simulator.
+TEST_F(HostileProgram, ItsFilesAreNotItsResults) {
+  for (const char* pattern : {"*", "."}) {
+    study(good_reply, R"(, "files": [")" + std::string(pattern) + R"("])");
+    const fs::path own = place_ / ("of_" + std::to_string(pattern[0]));
+    fs::create_directories(own);
+    for (const char* file : {"study.json", "simulate.sh"}) fs::copy_file(place_ / file, own / file);
+    const std::string line = EXTERNAL_PROGRAM + std::string(" ") + (own / "study.json").string() +
+                             " --validation 0 --out " + (own / "results" / "study").string();
+    EXPECT_EQ(run(line + " --runs 3").code, 0) << pattern;
+    EXPECT_EQ(run(line + " --runs 4").code, 0) << pattern;
+  }
+}
+
+// What somebody has put right is no run that the simulator could give again.
+TEST_F(HostileProgram, ACorrectedRunIsNotComparedWithTheSimulator) {
+  const std::string options = " --validation 0 --jobs 1" + out();
+  ASSERT_EQ(run(study(good_reply) + " --runs 3" + options).code, 0);
+  std::ofstream(place_ / "right.csv") << "run,y\n1,0.25\n2,0.3\n3,0.35\n";
+  const Ended told = run(study(good_reply) + " tell --replace --why measured --file " +
+                         (place_ / "right.csv").string() + out());
+  ASSERT_EQ(told.code, 0) << told.err;
+  const Ended more = run(study(good_reply) + " --runs 5" + options);
+  EXPECT_EQ(more.code, 0) << more.err;
+}
+
+TEST_F(HostileProgram, AStoreThatIsNoFileIsRefused) {
+  fs::create_directories(dir());
+  ASSERT_EQ(mkfifo((dir() / "study.db").c_str(), 0600), 0);
+  const Ended end = run(study(good_reply) + " status" + out());
+  EXPECT_EQ(end.code, 1);
+  EXPECT_TRUE(contains(end.err, "is no regular file"));
+}

@@ -139,4 +139,9 @@ TEST(Signal, AConstantIsFlat) {
   const Signal found = signal(nothing, {.n = 24, .noise = 0}, 1);
   EXPECT_TRUE(found.flat);
   EXPECT_EQ(found.spread, 0);
+  for (const double value : {0.1, 0.7, 1.0 / 3.0, 1e6 / 3.0, -2e-9}) {  // whose mean is off by round-off
+    const Signal other = signal([value](const Eigen::VectorXd&) { return value; }, {.n = 11, .noise = 0}, 1);
+    EXPECT_TRUE(other.flat) << value;
+    EXPECT_EQ(other.spread, 0) << value;
+  }
 }

@@ -68,6 +68,21 @@ TEST_F(ImportedPoints, AreTakenOnce) {
   EXPECT_EQ(more[0].id, 3);
 }
 
+// The table still says what stood there before a run was put right, or says what is right by now.
+TEST_F(ImportedPoints, DoNotUndoACorrection) {
+  auto runs = imported("speed,lining,wear\n2,0,1\n3,0,1\n");
+  runs[1].y[0] = 1.75;
+  const std::vector<Correction> ledger = {
+      {.run = 2, .what = "replace", .before = R"({"status":"done","values":[1.0]})"},
+      {.run = 1, .what = "exclude", .before = R"({"status":"done","values":[1.0]})"}};
+  for (const char* value : {"1", "1.75"}) {
+    std::ofstream(file()) << "speed,lining,wear\n2,0,1\n3,0," << value << "\n";
+    EXPECT_TRUE(imported_runs(file(), problem, runs, ledger).empty()) << value;
+  }
+  std::ofstream(file()) << "speed,lining,wear\n3,0,5\n";
+  EXPECT_EQ(imported_runs(file(), problem, runs, ledger).size(), 1u);
+}
+
 TEST_F(ImportedPoints, AreRefusedWithTheirPlace) {
   const auto has = [&](const std::string& table, const std::string& part) {
     const std::string text = refused(table);
@@ -88,6 +103,10 @@ TEST_F(ImportedPoints, AreRefusedWithTheirPlace) {
   has("speed,lining,wear,note,note\n2,0,1,,\n", "the column \"note\" stands there twice");
   has("speed,lining,wear,speed [m/s]\n2,0,1,3\n", "are of one quantity; remove one");
   has("speed,lining,wear\n2,0,-1e-12\n", "lies outside of its range");
+  has("speed,lining,wear,,\n2,0,1,5,75\n", "line 2: \"5\" stands under no name");
+  has("speed,lining,wear\n2,0,\"1\"5\n", "behind the closing quote");
+  has("speed,lining,wear,status\n2,0,1,done\n3,0,1,Done\n",
+      "line 3: \"status\" is \"Done\"; allowed are done");
   has("speed,lining,wear\n", "no row with a point");
   has("", "no first line");
   std::filesystem::remove(file());

@@ -4,6 +4,7 @@
 #include <drawpoint/studies/run/points/imported_points.h>
 #include <drawpoint/studies/run/points/point_table.h>
 #include <drawpoint/studies/run/settings.h>
+#include <drawpoint/studies/run/store/left_out.h>
 
 #include <cstdint>
 #include <optional>
@@ -50,24 +51,37 @@ std::vector<double> key_of(const Run& run) {
   return key;
 }
 
-std::set<std::vector<double>> keys_of_imported(const std::vector<Run>& runs) {
+/// With what stood there before it was corrected: the table may say so still.
+std::set<std::vector<double>> keys_of_imported(const std::vector<Run>& runs,
+                                               const std::vector<Correction>& corrections) {
   std::set<std::vector<double>> keys;
   for (const Run& run : runs)
     if (run.kind == Kind::imported) keys.insert(key_of(run));
+  for (const Correction& c : corrections) {
+    if (c.what != replace_word) continue;
+    Run before = runs.at(static_cast<std::size_t>(c.run) - 1);
+    if (before.kind != Kind::imported) continue;
+    const std::vector<double> values = values_before(c);
+    before.y = Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+    keys.insert(key_of(before));
+  }
   return keys;
 }
 
 }  // namespace
 
 std::vector<Run> imported_runs(const std::filesystem::path& file, const doe::Problem& problem,
-                               const std::vector<Run>& existing) {
+                               const std::vector<Run>& existing, const std::vector<Correction>& corrections) {
   ImportedColumns columns;
   std::vector<Run> runs;
-  const std::set<std::vector<double>> known = keys_of_imported(existing);
+  const std::set<std::vector<double>> known = keys_of_imported(existing, corrections);
   const std::int64_t points = count_points(existing, Kind::imported);
   int rows = 0;
   const auto take = [&](const doe::detail::CsvRecord& record, const TablePlace& place) {
-    if (columns.status && record[*columns.status] != "done") return;
+    if (columns.status) {
+      check_status(record[*columns.status], place);
+      if (record[*columns.status] != "done") return;
+    }
     Run run = run_from(record, columns, problem, place);
     ++rows;
     if (known.contains(key_of(run))) return;

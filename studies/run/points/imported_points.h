@@ -5,7 +5,7 @@
 ///
 /// The file is a table as `export` writes it: comma-separated, its first line with the names of the variables
 /// and responses, "speed" or "speed [m/s]". Columns of other names are left alone, and so are rows whose
-/// column "status", if there is one, says anything but done. A categorical variable has the name of a level
+/// column "status", if there is one, says failed, planned or running. A categorical variable has the name of a level
 /// or its number, from 0.
 
 #include <drawpoint/studies/run/store/store.h>
@@ -15,10 +15,11 @@
 
 namespace drawpoint::studies {
 
-/// The rows of the file that are not among `existing` yet, as runs that are done; their numbers continue
-/// those of `existing`. Throws UsageError that names file, line and column for a column that is missing or
-/// has another unit, a value that is no number or outside of its range, and a table without rows.
+/// The rows of the file that are not among `existing` yet, nor stood there before they were corrected, as runs that are
+/// done; their numbers continue those of `existing`. Throws UsageError that names file, line and column for a column
+/// that is missing or has another unit, a value that is no number or outside of its range, and a table without rows.
 std::vector<Run> imported_runs(const std::filesystem::path& file, const doe::Problem& problem,
-                               const std::vector<Run>& existing);
+                               const std::vector<Run>& existing,
+                               const std::vector<Correction>& corrections = {});
 
 }  // namespace drawpoint::studies

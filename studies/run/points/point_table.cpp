@@ -90,6 +90,10 @@ TablePlace read_table(const std::filesystem::path& file, const std::string& opti
       place.fail("it has " + std::to_string(record->size()) + " fields, and the first line has " +
                  std::to_string(header->size()) +
                  "; numbers take a decimal point, and a text with a comma stands in quotes");
+    for (std::size_t k = 0; k < record->size(); ++k)
+      if ((*header)[k].empty() && !(*record)[k].empty())
+        place.fail("\"" + (*record)[k] +
+                   "\" stands under no name; name the column, or empty it: numbers take a decimal point");
     row(*record, place);
   }
   place.line = reader.line();
@@ -146,6 +150,16 @@ double response_from(const std::string& text, const doe::Response& response, con
     place.fail("\"" + response.name + "\" is " + doe::detail::with_unit(value, response.unit) +
                ", which lies outside of its range");
   return value;
+}
+
+bool is_word_of_status(const std::string& text) {
+  static const std::set<std::string> words = {"done", "failed", "planned", "running", ""};
+  return words.contains(text);
+}
+
+void check_status(const std::string& text, const TablePlace& place) {
+  if (!is_word_of_status(text))
+    place.fail("\"status\" is \"" + text + "\"; allowed are done, failed, planned and running");
 }
 
 }  // namespace drawpoint::studies

@@ -67,4 +67,7 @@ double level_or_number_from(const std::string& text, const doe::Variable& variab
 double variable_from(const std::string& text, const doe::Variable& variable, const TablePlace& place);
 double response_from(const std::string& text, const doe::Response& response, const TablePlace& place);
 
+/// Throws UsageError where a column "status" says what no table of a study does.
+void check_status(const std::string& text, const TablePlace& place);
+
 }  // namespace drawpoint::studies

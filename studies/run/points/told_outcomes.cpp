@@ -51,6 +51,7 @@ class Telling {
 
   void take(const doe::detail::CsvRecord& record, const TablePlace& place) {
     const std::string status = columns_.status ? record[*columns_.status] : "done";
+    check_status(status, place);
     if (status != "done" && status != "failed") {
       ++told_.left_alone;
       return;
@@ -63,6 +64,9 @@ class Telling {
     if (has_ended(run) && is_same(run, outcome)) return;
     outcome.replaces = has_ended(run);
     if (outcome.replaces && !replace_) refuse_other(run, place);
+    if (!outcome.replaces && replace_)
+      place.fail("run " + std::to_string(run.id) +
+                 " has no result yet that could be replaced; tell it without --replace");
     told_.outcomes.push_back(outcome);
   }
 

@@ -39,6 +39,12 @@ std::string state_of(const Run& run) {
 
 }  // namespace
 
+std::vector<double> values_before(const Correction& correction) {
+  const nlohmann::json state = nlohmann::json::parse(correction.before, nullptr, false);
+  if (!state.is_object() || !state.contains("values")) return {};
+  return state["values"].get<std::vector<double>>();
+}
+
 std::vector<Correction> Store::read_corrections() const {
   if (!database_->tableExists("corrections")) return {};
   SQLite::Statement query(

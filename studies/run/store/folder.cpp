@@ -96,7 +96,7 @@ std::uintmax_t free_space(const fs::path& path) {
 
 FolderLock::FolderLock(const Folder& folder) {
   const fs::path file = folder.lock();
-  descriptor_ = open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  descriptor_ = open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666);
   if (descriptor_ < 0) refuse(file, errno);
   if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
     const int error = errno;

@@ -22,6 +22,9 @@ inline constexpr const char *exclude_word = "exclude", *include_word = "include"
 void leave_out(std::vector<Run>& runs, const std::vector<Correction>& corrections,
                const doe::Problem& problem);
 
+/// The values of a run before a correction; none where it had none.
+std::vector<double> values_before(const Correction& correction);
+
 /// A line per run that is left out, at most ten and how many more; for cautions.
 std::vector<std::string> left_out_texts(const std::vector<Run>& runs);
 

@@ -101,6 +101,9 @@ Store Store::create(const fs::path& file, const Identity& identity) {
 
 Store Store::open(const fs::path& file, Access access) {
   const bool reads = access == Access::read;
+  std::error_code ignored;
+  if (fs::exists(file, ignored) && !fs::is_regular_file(file, ignored))
+    refuse(file, "is no regular file, and not the store of a Drawpoint study");
   return with_context(file, [&] {
     Store store(file, std::make_unique<SQLite::Database>(
                           file.string(), reads ? SQLite::OPEN_READONLY : SQLite::OPEN_READWRITE,
