@@ -77,10 +77,10 @@ inline bool predicts_as_well(const Model& exact, const Model& noisy) {
 inline Model said_exact(const Model& exact, const Model& noisy, double gain) {
   ModelState state = exact.state();
   const std::string part = state.X.rows() > many ? ", by " + std::to_string(many) + " of them," : "";
-  state.report.message +=
-      "; the model meets the runs, which are" + part + " e^" + brief_text(gain) +
-      " times as likely without noise as with noise of " + brief_text(std::sqrt(noisy.noise_variance())) +
-      ": repeat a run if the simulator may have some";
+  state.report.message += "; the model meets the runs, which are" + part + " e^" + brief_text(gain) +
+                          " times as likely without noise as with noise of " +
+                          brief_text(std::sqrt(noisy.noise_variance())) +
+                          ": repeat a run if the simulator may have some";
   return Model(std::move(state));
 }
 
@@ -97,8 +97,7 @@ inline Model in_doubt(const Model& noisy, const Model& exact, double gain) {
   state.doubt = 1.0 / (1.0 + std::exp(-gain));
   state.report.message += "; the runs do not tell whether there is noise of " +
                           brief_text(std::sqrt(noisy.noise_variance())) + " or none, of probability " +
-                          brief_text(state.doubt) +
-                          ": variances hold both; repeat a run to know";
+                          brief_text(state.doubt) + ": variances hold both; repeat a run to know";
   return Model(std::move(state));
 }
 
