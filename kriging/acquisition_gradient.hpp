@@ -91,7 +91,7 @@ inline Eigen::MatrixXd natural_runs(const ModelState& s) {
 /// Throws std::invalid_argument for another goal.
 inline doe::Criterion log_knowledge_gradient(const Model& model, doe::Goal goal) {
   const double sign = detail::sign_of("kriging::log_knowledge_gradient", goal);
-  const auto shared = std::make_shared<const Model>(model);
+  const auto shared = std::make_shared<const Model>(detail::of_one_explanation(model));
   const Eigen::MatrixXd runs = detail::natural_runs(model.state());
   return [shared, sign, covariance = detail::CovarianceWith(shared, runs),
           means = detail::affine(model.mean(runs), sign)](const Eigen::MatrixXd& X) -> Eigen::VectorXd {

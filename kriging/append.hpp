@@ -12,6 +12,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <cmath>
 #include <drawpoint/kriging/detail/cholesky.hpp>
 #include <drawpoint/kriging/model.hpp>
 #include <memory>
@@ -123,7 +124,15 @@ inline Model append(const Model& model, const Eigen::MatrixXd& X, const Eigen::V
   if (s.noise.size()) s.noise = detail::stacked(s.noise, detail::affine(noise_variance, 1.0 / s.noise_unit));
   const double raised = detail::extend_factor(s);
   detail::estimate(s);
-  if (s.other) s.other = std::make_shared<const detail::ModelState>(append(Model(*s.other), X, y).state());
+  if (s.other) {
+    const Model other = append(Model(*s.other), X, y);
+    const double of_other = other.log_likelihood() - s.other->log_likelihood,
+                 own = s.log_likelihood - model.log_likelihood(),
+                 gain = std::log(s.doubt / (1.0 - s.doubt)) + of_other - own;
+    s.doubt = detail::doubt_of(gain);
+    s.other = std::make_shared<const detail::ModelState>(other.state());
+    if (!(gain > detail::hardly_likely)) detail::forget_other(s);
+  }
   s.report.message +=
       "; " + std::to_string(y.size()) + (y.size() == 1 ? " run" : " runs") + " appended without a new fit";
   if (raised > 0) {

@@ -7,10 +7,10 @@
 ///
 /// leave_one_out(model): closed form (left_out.hpp), θ and λ as fitted, β estimated anew without each run.
 /// Cost n³/3, no refits. The s² is that of all runs, and what is unknown of θ and λ is left out. θ and λ have
-/// seen the run, so the error is estimated somewhat low. k_fold and hold_out fit anew without the runs that
-/// they predict: honest, at the cost of the fits. A fitter f(X, y, rows) is told which runs it gets, for the noise of
-/// each. Repeats are left out together, since one gives the others away: what is shared out at random, by the seed, are
-/// distinct points with all their runs.
+/// seen the run, so the error is estimated somewhat low. A model in doubt (Model::doubt) is left out by its own
+/// explanation alone. k_fold and hold_out fit anew without the runs that they predict: honest, at the cost of the fits.
+/// A fitter f(X, y, rows) is told which runs it gets, for the noise of each. Repeats are left out together, since one
+/// gives the others away: what is shared out at random, by the seed, are distinct points with all their runs.
 
 #include <Eigen/Core>
 #include <algorithm>

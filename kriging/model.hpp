@@ -13,7 +13,7 @@
 /// from roughness the variance holds both explanations: with s² of the one and, of probability p, ŷₒ and sₒ² of the
 /// other, it is s² + p max(0, sₒ² + (ŷₒ − ŷ)² − s²) (detail/exact_or_noisy.hpp). This is about the latent
 /// function, the response without noise; its variance does not vanish at the runs when λ > 0. A new noisy
-/// observation has the variance s²(x) + λ s², where runs of different noise have their mean. Units: mean in
+/// observation has the variance s²(x) + (1 − p) λ s², where runs of different noise have their mean. Units: mean in
 /// the unit of y, variance in its square. Cost a point: mean n d, variance n² more, covariance of m points m
 /// n² + m² n. Source: Forrester, Keane, Bressloff 2006, AIAA Journal 44(10), "Design and Analysis of 'Noisy'
 /// Computer Experiments"; universal Kriging: Santner, Williams, Notz 2003, section 3.3.
@@ -25,6 +25,7 @@
 #include <drawpoint/kriging/options.hpp>
 #include <memory>
 #include <string>
+#include <utility>
 
 namespace drawpoint::kriging {
 
@@ -75,7 +76,8 @@ class Model {
   /// s², unit of y squared.
   double process_variance() const { return s_.y_scale * s_.y_scale * s_.process_variance; }
   double noise_variance() const { return s_.nugget * process_variance(); }  ///< λ s², unit of y squared
-  /// Probability that there is no noise, which variances hold as well; 0 where only one explanation is likely.
+  /// Probability that there is no noise, by the ratio of the likelihoods, at most 0.99; variances hold that, too. 0
+  /// where one explanation alone is likely.
   double doubt() const { return s_.doubt; }
   /// Coefficient of the trend's first term, the constant unless the user's basis begins with another.
   double trend() const { return s_.y_centre + (s_.X.rows() ? s_.y_scale * s_.gls.beta[0] : 0.0); }
@@ -132,7 +134,7 @@ class Model {
   // What the other explanation expects of the square of the error of each mean, m entries.
   Eigen::VectorXd squares_by_other(const Eigen::MatrixXd& X, const Eigen::VectorXd& mean) const;
 
-  // To the derivative of a variance, and to a covariance of points.
+  // What the other explanation adds to the derivative of a variance, and to a covariance of points.
   void add_doubt(const Eigen::VectorXd& x, PredictionGradient& g) const;
   void add_doubt(const Eigen::MatrixXd& X, Eigen::MatrixXd& C) const;
 
@@ -144,6 +146,17 @@ class Model {
   detail::ParameterEffects effects_;
 };
 
+namespace detail {
+
+/// The model as if its own explanation of the runs were the only one, for criteria that follow one.
+inline Model of_one_explanation(const Model& model) {
+  if (model.doubt() == 0) return model;
+  ModelState state = model.state();
+  forget_other(state);
+  return Model(std::move(state));
+}
+
+}  // namespace detail
 }  // namespace drawpoint::kriging
 
 #ifndef DRAWPOINT_KRIGING_COMPILED

@@ -47,8 +47,7 @@ inline Model reinterpolated(const Model& model) {
   s.noise.resize(0);
   s.parameter_spread.resize(0, 0);
   s.known_noise = 0;
-  s.other.reset();
-  s.doubt = 0;
+  detail::forget_other(s);
   s.gls = detail::least_squares(s.L, s.F, s.y);
   s.gls.beta = regression.beta;
   s.gls.alpha = regression.alpha;

@@ -42,7 +42,7 @@ class RunGain {
     check(points, places);
     Eigen::MatrixXd all(points.rows() + places.rows(), points.cols());
     all << points, places;
-    const Eigen::MatrixXd C = model.covariance(all);
+    const Eigen::MatrixXd C = detail::of_one_explanation(model).covariance(all);
     C_ = C.leftCols(points.rows());
     variance_ = detail::diagonal(C).tail(places.rows());
   }

@@ -6,7 +6,8 @@
 ///
 /// The file holds all that makes the model, the factor of R included, so that a loaded model predicts the
 /// same bits: {"checksum", "format": "drawpoint kriging model", "model": {...}, "version": 2}, on one line;
-/// with categories the version is 3, and 4 where the correlation is isotropic or additive.
+/// with categories the version is 3, 4 where the correlation is isotropic or additive, and 5 with two explanations of
+/// the runs.
 /// Numbers are the shortest text that reads back as the same double; ±∞ and NaN, which JSON lacks, are the
 /// texts "inf", "-inf" and "nan", where a field may be that. Matrices are {"columns", "rows", "values"} by
 /// columns; of L only the lower triangle. Size 10 n² bytes, cost O(n²). Reading checks format and version,

@@ -18,11 +18,13 @@
 ///   times what noisy runs ever gained.
 /// Three of 1152 sets of noisy runs are taken for exact (docs/measurements/kriging.md), with 0.76 to 1.13 of the
 /// error; where a response is rough for its runs noise of a third of its deviation mostly is.
-/// Where only some of these hold, or without noise the runs are unlikelier by no more than hardly_likely, they do not
-/// tell which of the two it is: the mean stays that of the noisy model, and variances hold both explanations
-/// (model.hpp), each with its probability by the likelihoods. So a response that is taken for noise by mistake has
-/// intervals that hold it. Cost: two searches from few starts where the default finds noise, a whole one where these
-/// come near, and up to two for each of sixteen simulated sets where only the last is left.
+/// Where only some of these hold, or the runs are unlikelier without noise by no more than hardly_likely, up to 250
+/// runs do not tell which of the two it is: the mean stays that of the noisy model, and variances hold both
+/// explanations (model.hpp), by the ratio of their likelihoods. So a response that is taken for noise by mistake has
+/// intervals that hold it.
+///
+/// Cost: two searches from few starts where the default finds noise, one more where it leaves doubt, a whole one where
+/// the likelihoods come near, and up to two for each of sixteen simulated sets where only the last condition is left.
 
 #include <cmath>
 #include <drawpoint/kriging/detail/box_shares.hpp>
@@ -37,9 +39,8 @@ namespace drawpoint::kriging::detail {
 
 inline constexpr double least_gain = 2.0;
 inline constexpr double sure_gain = 30.0;
-inline constexpr double hardly_likely = -5.0;  ///< in ln L: a probability of 0.007
-inline constexpr double little_noise = 1e-4;   ///< over the variance of the runs: less matters to no interval
-inline constexpr double as_well = 1.1;         ///< a mean square up to so many times another one is as good
+inline constexpr double little_noise = 1e-4;  ///< over the variance of the runs: less matters to no interval
+inline constexpr double as_well = 1.1;        ///< a mean square up to so many times another one is as good
 
 /// Whether the noise that a fit found may be the default's expectation.
 inline bool may_be_expected(const Model& noisy, const TrainingData& data, const FitOptions& options) {
@@ -94,7 +95,7 @@ inline bool leaves_doubt(const Model& noisy, const TrainingData& data, double ga
 inline Model in_doubt(const Model& noisy, const Model& exact, double gain) {
   ModelState state = noisy.state();
   state.other = std::make_shared<const ModelState>(exact.state());
-  state.doubt = 1.0 / (1.0 + std::exp(-gain));
+  state.doubt = doubt_of(gain);
   state.report.message += "; the runs do not tell whether there is noise of " +
                           brief_text(std::sqrt(noisy.noise_variance())) + " or none, of probability " +
                           brief_text(state.doubt) + ": variances hold both; repeat a run to know";

@@ -46,7 +46,9 @@ inline CokrigingLevel fit_cheapest_level(const LevelRuns& runs) {
   CokrigingLevel level;
   level.name = runs.name;
   level.X = runs.X;
-  level.s = fit(runs.X, runs.y, runs.options).state();
+  FitOptions options = runs.options;
+  options.may_be_exact = false;  // levels hold one explanation
+  level.s = fit(runs.X, runs.y, options).state();
   build_regular({}, level);
   return level;
 }
@@ -75,6 +77,7 @@ inline CokrigingLevel level_with_mean_below(const CokrigingLevels& levels, const
     for (std::size_t j = 0; j < rho.size(); ++j) h[static_cast<Index>(f.size() + j)] = m * rho[j].at(scaled);
     return h;
   };
+  options.may_be_exact = false;
   level.s = fit(runs.X, runs.y, options).state();
   std::vector<TrendTerm> kept;
   for (const Index j : level.s.trend.kept) {

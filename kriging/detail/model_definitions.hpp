@@ -43,7 +43,8 @@ DRAWPOINT_KRIGING_INLINE Prediction Model::predict(const Eigen::MatrixXd& X, Tar
     for (Eigen::Index i = 0; i < squares.size(); ++i)
       p.variance[i] += s_.doubt * std::max(0.0, squares[i] - p.variance[i]);
   }
-  if (target == Target::observation) p.variance = detail::affine(p.variance, 1.0, noise_variance());
+  if (target == Target::observation)
+    p.variance = detail::affine(p.variance, 1.0, (1.0 - s_.doubt) * noise_variance());
   return p;
 }
 
@@ -93,7 +94,7 @@ DRAWPOINT_KRIGING_INLINE PredictionGradient Model::gradient(const Eigen::VectorX
   return g;
 }
 
-// The derivative of the variance without doubt, where it is the larger one, is that with it.
+// Where the other explanation expects less, it adds nothing.
 DRAWPOINT_KRIGING_INLINE void Model::add_doubt(const Eigen::VectorXd& x, PredictionGradient& g) const {
   const Eigen::MatrixXd X = x.transpose(), scaled = s_.input.apply(X);
   const double mean = mean_of(X, scaled)[0], variance = variance_of(X, scaled)[0];

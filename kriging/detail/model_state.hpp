@@ -8,6 +8,7 @@
 /// state without rows in X is a constant: its mean is y_centre, its variance constant_variance. Memory n².
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <drawpoint/kriging/correlation.hpp>
 #include <drawpoint/kriging/detail/least_squares.hpp>
@@ -46,6 +47,17 @@ struct ModelState {
   double doubt = 0;
   FitReport report;
 };
+
+inline constexpr double hardly_likely = -5.0;  ///< in ln L: a probability of 0.007
+inline constexpr double most_doubt = 0.99;     ///< of what a test has not confirmed
+
+/// The probability of the explanation that is likelier by a gain in ln L.
+inline double doubt_of(double gain) { return std::min(most_doubt, 1.0 / (1.0 + std::exp(-gain))); }
+
+inline void forget_other(ModelState& s) {
+  s.other.reset();
+  s.doubt = 0;
+}
 
 /// What the diagonal of R has beyond that of C: n entries.
 inline Eigen::VectorXd added_noise(const ModelState& s) {

@@ -119,7 +119,8 @@ class JsonReader {
 };
 
 /// What a kind of file is called, and its version; of models with categories it is one higher, so that a
-/// reader that knows none does not take them for numbers, and of isotropic and additive correlations two.
+/// reader that knows none does not take them for numbers, of isotropic and additive correlations two, and of two
+/// explanations three.
 struct FileKind {
   const char* format;
   int version;

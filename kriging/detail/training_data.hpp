@@ -70,7 +70,7 @@ inline constexpr double largest = 1e150, smallest_range = 1e-150;
 
 inline std::string text(double value) { return doe::detail::number_text(value); }
 
-/// With three digits.
+/// A number with three digits.
 inline std::string brief_text(double value) {
   char buffer[32];
   std::snprintf(buffer, sizeof buffer, "%.3g", value);

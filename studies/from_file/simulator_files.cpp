@@ -46,7 +46,7 @@ void add_below(const fs::path& place, std::set<fs::path>& files) {
   std::error_code ignored;
   if (fs::is_regular_file(place, ignored)) files.insert(place.lexically_normal());
   if (!fs::is_directory(place, ignored) || is_study(place)) return;
-  fs::recursive_directory_iterator entry(place, ignored), end;
+  fs::recursive_directory_iterator entry(place, fs::directory_options::skip_permission_denied, ignored), end;
   for (; entry != end; entry.increment(ignored)) {
     if (entry->is_directory(ignored) && is_study(entry->path())) entry.disable_recursion_pending();
     if (entry->is_regular_file(ignored)) files.insert(entry->path().lexically_normal());
@@ -63,7 +63,9 @@ bool passed_over(const fs::path& name) {
 bool add_alike(const fs::path& program, std::set<fs::path>& files, std::uintmax_t& bytes) {
   std::error_code ignored;
   int looked_at = 0;
-  fs::recursive_directory_iterator entry(program.parent_path(), ignored), end;
+  fs::recursive_directory_iterator entry(program.parent_path(), fs::directory_options::skip_permission_denied,
+                                         ignored),
+      end;
   for (; entry != end; entry.increment(ignored)) {
     if (++looked_at > most_looked_at) return false;
     if (passed_over(entry->path())) {

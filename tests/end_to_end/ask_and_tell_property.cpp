@@ -168,7 +168,8 @@ TEST_F(AskAndTell, CorrectionsAreALedger) {
   EXPECT_EQ(on_bench("tell --replace" + file).code, 2) << "without a reason";
   EXPECT_TRUE(contains(on_bench("ask --runs 6").out, "6,"));
   std::ofstream(table()) << "run,wear\n6,1\n";
-  EXPECT_TRUE(contains(on_bench("tell --replace --why 'so it is'" + file).err, "run 6 has no result yet"));
+  EXPECT_TRUE(contains(on_bench("tell --replace --why 'so it is'" + file).err,
+                       "no run of the table has a result that could be replaced"));
   std::ofstream(table()) << "run,wear\n1,0.4\n";
   const Ended replaced = on_bench("tell --replace --why 'a decimal comma'" + file);
   ASSERT_EQ(replaced.code, 0) << replaced.err;

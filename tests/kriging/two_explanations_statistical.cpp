@@ -99,7 +99,7 @@ TEST(TwoExplanations, AddUpInVariancesGradientsAndCovariances) {
   }
   EXPECT_GT(wider, 20);
   EXPECT_EQ(model.predict(P, Target::observation).variance,
-            detail::affine(both.variance, 1.0, model.noise_variance()));
+            detail::affine(both.variance, 1.0, (1.0 - model.doubt()) * model.noise_variance()));
 
   // Central differences: second order in the step of 1e-5, round-off 1e-16/1e-5 of the variance.
   for (Eigen::Index i = 0; i < 5; ++i)
@@ -128,15 +128,33 @@ TEST(TwoExplanations, AreKeptByFilesAndByWhatChangesModels) {
   EXPECT_EQ(to_text(again), to_text(model));
 
   const Model more = append(model, runs.Z.topRows(5), runs.truth.head(5));
-  EXPECT_EQ(more.doubt(), model.doubt());
+  ASSERT_GT(more.doubt(), 0);
   EXPECT_EQ(more.state().other->X.rows(), 65);
   // Of the exact explanation nothing is left at a run but how far the noisy mean lies from it.
   const Prediction there = more.predict(runs.Z.topRows(5));
   for (Eigen::Index i = 0; i < 5; ++i) {
     const double apart = there.mean[i] - runs.truth[i];
-    EXPECT_GE(there.variance[i] * (1 + 1e-6), model.doubt() * apart * apart);
+    EXPECT_GE(there.variance[i] * (1 + 1e-6), more.doubt() * apart * apart);
   }
   EXPECT_EQ(reinterpolated(model).doubt(), 0);
+}
+
+// A repeat that differs by a noise that was found ends the doubt, and leaves no wider intervals; equal ones do not.
+TEST(TwoExplanations, AreToldApartByARepeat) {
+  const auto [runs, model] = doubtful();
+  const Eigen::VectorXd again = runs.y.head(3);
+  const Eigen::Vector3d noise = std::sqrt(model.noise_variance()) * Eigen::Vector3d(1, -1, 0.5);
+  const Model noisy = append(model, runs.X.topRows(3), again + noise);
+  EXPECT_EQ(noisy.doubt(), 0);
+  EXPECT_LT(noisy.predict(runs.Z).variance.mean(), 1.5 * model.predict(runs.Z).variance.mean());
+  EXPECT_GE(append(model, runs.X.topRows(3), again).doubt(), model.doubt());
+}
+
+// However much likelier, what no test has confirmed stays a doubt that a file may hold.
+TEST(TwoExplanations, AreNeverSure) {
+  EXPECT_EQ(detail::doubt_of(40.0), detail::most_doubt);
+  EXPECT_EQ(detail::doubt_of(0.0), 0.5);
+  EXPECT_NEAR(detail::doubt_of(detail::hardly_likely), 0.0067, 1e-4);
 }
 
 // A robot's arm and Hartmann's function of six variables, exact and rough for their runs, twelve designs each. By the

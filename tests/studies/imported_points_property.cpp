@@ -54,6 +54,11 @@ TEST_F(ImportedPoints, AreTakenByNameWhateverElseTheTableHolds) {
   EXPECT_TRUE(runs[1].kind == Kind::imported && runs[1].status == Status::done);
 }
 
+TEST_F(ImportedPoints, MayHaveNamesOfRowsBeforeThem) {
+  EXPECT_EQ(imported(",speed,lining,wear\n0,2,0,1\n1,3,0,1\n").size(), 2u);
+  EXPECT_EQ(imported("\"\",\"speed\",\"lining\",\"wear\"\n\"1\",2,0,1\n").size(), 1u);
+}
+
 TEST_F(ImportedPoints, RoundOffBelowABoundIsTheBound) {
   EXPECT_EQ(imported("speed,lining,wear\n2,0,-1.1e-16\n").at(0).y[0], 0.0);
 }

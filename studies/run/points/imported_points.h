@@ -5,8 +5,8 @@
 ///
 /// The file is a table as `export` writes it: comma-separated, its first line with the names of the variables
 /// and responses, "speed" or "speed [m/s]". Columns of other names are left alone, and so are rows whose
-/// column "status", if there is one, says failed, planned or running. A categorical variable has the name of a level
-/// or its number, from 0.
+/// column "status", if there is one, says failed, planned or running, or nothing. A categorical variable has the name
+/// of a level or its number, from 0.
 
 #include <drawpoint/studies/run/store/store.h>
 

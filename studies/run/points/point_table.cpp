@@ -90,7 +90,8 @@ TablePlace read_table(const std::filesystem::path& file, const std::string& opti
       place.fail("it has " + std::to_string(record->size()) + " fields, and the first line has " +
                  std::to_string(header->size()) +
                  "; numbers take a decimal point, and a text with a comma stands in quotes");
-    for (std::size_t k = 0; k < record->size(); ++k)
+    for (std::size_t k = 1; k < record->size();
+         ++k)  // the first may hold names of rows, as pandas and R write them
       if ((*header)[k].empty() && !(*record)[k].empty())
         place.fail("\"" + (*record)[k] +
                    "\" stands under no name; name the column, or empty it: numbers take a decimal point");

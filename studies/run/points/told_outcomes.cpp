@@ -64,13 +64,18 @@ class Telling {
     if (has_ended(run) && is_same(run, outcome)) return;
     outcome.replaces = has_ended(run);
     if (outcome.replaces && !replace_) refuse_other(run, place);
-    if (!outcome.replaces && replace_)
-      place.fail("run " + std::to_string(run.id) +
-                 " has no result yet that could be replaced; tell it without --replace");
+
     told_.outcomes.push_back(outcome);
   }
 
-  const Told& told() const { return told_; }
+  /// New runs may stand beside those that are replaced.
+  const Told& told(const TablePlace& end) const {
+    const auto replaces = [](const ToldOutcome& outcome) { return outcome.replaces; };
+    const std::vector<ToldOutcome>& all = told_.outcomes;
+    if (replace_ && !all.empty() && std::none_of(all.begin(), all.end(), replaces))
+      end.fail("no run of the table has a result that could be replaced; tell them without --replace");
+    return told_;
+  }
 
  private:
   const Run& run_of(const doe::detail::CsvRecord& record, const TablePlace& place) const {
@@ -140,10 +145,10 @@ class Telling {
 Told told_outcomes(const std::filesystem::path& file, const doe::Problem& problem,
                    const std::vector<Run>& runs, bool replace) {
   Telling telling(problem, runs, replace);
-  read_table(
+  const TablePlace end = read_table(
       file, "--file", [&](const TableHeader& header) { telling.start(header); },
       [&](const doe::detail::CsvRecord& record, const TablePlace& place) { telling.take(record, place); });
-  return telling.told();
+  return telling.told(end);
 }
 
 }  // namespace drawpoint::studies

@@ -48,7 +48,7 @@ export function scaledDeviation(surface) {
   };
 }
 
-/// Of one explanation. R is factored when it is asked for the first time.
+/// (x) => the variance of z by one explanation of the runs. R is factored when it is asked for the first time.
 function scaledVariance(surface) {
   const {centre, factor, X, terms, error} = surface;
   let L = null;

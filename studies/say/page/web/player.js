@@ -52,7 +52,7 @@ export function player(panel, times, view, area) {
     if (draw) view.setTime(t);
   };
   const seek = (time) => {
-    play(false);
+    if (playing) play(false);
     show(time);
   };
   const step = (now) => {

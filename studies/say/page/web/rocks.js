@@ -65,7 +65,7 @@ export class Rocks {
     this.kept.lookAtAll();
   }
 
-  /// For isSeen.
+  /// Sets what isSeen looks through.
   aim(camera) {
     frustum.setFromProjectionMatrix(matrix.multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse));
   }

@@ -89,6 +89,7 @@ export class View {
     this.controls.addEventListener('change', () => {
       if (!this.shifting) this.render();
     });
+    this.renderer.domElement.addEventListener('webglcontextrestored', () => this.still.forget());
     this.endTheme = onTheme(() => this.tint());
     this.stage.tint();
   }
@@ -187,6 +188,7 @@ export class View {
   /// While pictures follow each other, each may be coarser than the last one, where the machine is slow.
   hurry(on) {
     this.pace.hurry(on);
+    this.still.forget();
     if (!on) this.setTime(this.place.t);
   }
 
@@ -205,6 +207,7 @@ export class View {
     stage.see(camera);
     stage.beCoarse(pace.level > 0);
     if (pace.level && this.still.draw(stage, camera)) return;
+    this.still.forget();
     stage.rocks.choose(camera);
     this.picture.draw(stage.scene, camera, !pace.level);
   }

@@ -51,13 +51,12 @@ export class ShadowMap {
     this.resting.cover(centre, radius, this.light.keyWay.value);
   }
 
-  /// Of a scene.
   drawResting(scene) {
     this.draw(scene, this.resting);
   }
 
-  /// Of a scene that lies within a box, and goes with an anchor. Where it may be late every second one is the last one,
-  /// moved by what the anchor has moved.
+  /// Draws a scene that lies within a box, and goes with an anchor. Where it may be late every second one is the last
+  /// one, moved by what the anchor has moved.
   drawMoving(scene, box, anchor, mayBeLate) {
     if (mayBeLate && !this.late) {
       this.late = true;

@@ -84,7 +84,7 @@ export class Stage {
     this.light.keyWay.value.set(-0.62, -0.34, 0.8).normalize();
   }
 
-  /// Coarse, for pictures that follow each other quickly: rocks have no grain, shadows hard edges.
+  /// Coarse, for pictures that follow each other quickly: surfaces have no grain, shadows hard edges.
   beCoarse(coarse) {
     if (coarse === this.coarse) return;
     this.coarse = coarse;
@@ -122,7 +122,7 @@ export class Stage {
     if (this.headLamps?.length) this.aimHeadLamps(place);
   }
 
-  /// Of what moves and is solid.
+  /// Around what moves and is solid.
   boxOfMoving() {
     const box = new THREE.Box3();
     for (const part of this.others) {

@@ -56,7 +56,7 @@ function overAll(fragmentShader, uniforms, state) {
   return mesh;
 }
 
-/// {light, copy}: meshes over all of a picture. The one gives the three parts of a still picture, with
+/// {light, copy}: meshes over all of a picture. The one puts together the three parts of a still picture, with
 /// their depths, the shadows and the head lamps' light; toWorld turns a place in the picture into one in the world. The
 /// other shows what that made, and how far away it is.
 export function stillPasses(light, toWorld, parts, depths, shown) {

@@ -57,7 +57,6 @@ export class StillPicture {
       before.copy(view);
       parts.setSize(size.x, size.y);
       this.shown.setSize(size.x, size.y);
-      this.pictures = 0;
       return false;
     }
     const clears = renderer.autoClear;
@@ -69,6 +68,11 @@ export class StillPicture {
     renderer.autoClear = clears;
     ++this.pictures;
     return true;
+  }
+
+  /// The next picture keeps everything anew.
+  forget() {
+    this.pictures = 0;
   }
 
   keep(stage, camera) {

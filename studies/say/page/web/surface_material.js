@@ -5,7 +5,7 @@
 //
 // What is kept of a still picture (still_picture.js) is the same in parts: STILL writes what is always there, what the
 // key light adds where nothing shades it, and what the head lamps' light falls on, with the normal in the places that
-// are left; laterLight puts the three together, and the head lamps and the shadow with them.
+// are left; stillPasses puts the three together, and the head lamps and the shadow with them.
 //
 // Attributes per vertex: position, normal, colour (linear), finish (grain, glow, dust: each 0 to 1). Per instance:
 // place (x, y, z, and 1, or 0 where it hides), turn (quaternion x y z w), tint (linear).
@@ -152,10 +152,8 @@ const fragmentShader = `
   float lit() {
   #ifdef QUICK
     return texture(movingShadow, inMoving);
-  #elif defined(SMOOTH)
-    return softly(shadow, inShadow) * softly(movingShadow, inMoving);
   #else
-    return texture(shadow, inShadow) * texture(movingShadow, inMoving);
+    return softly(shadow, inShadow) * softly(movingShadow, inMoving);
   #endif
   }
   void main() {
@@ -184,12 +182,12 @@ const depthFragmentShader = `
   void main() { pixel = vec4(1.0); }`;
 
 /// quality: SMOOTH, with soft edges of shadows; QUICK, without grain and with the shadow of what rests per
-/// vertex; SIMPLE, with both shadows so; STILL, in parts; or "".
-export function surfaceMaterial(light, {opacity = 1, quality = ''} = {}) {
+/// vertex; SIMPLE, with both shadows so; STILL, in parts.
+export function surfaceMaterial(light, {opacity = 1, quality}) {
   const see = opacity < 1;
   return new THREE.RawShaderMaterial({
     glslVersion: THREE.GLSL3,
-    defines: quality ? {[quality]: ''} : {},
+    defines: {[quality]: ''},
     vertexShader,
     fragmentShader,
     uniforms: {...light, shown: {value: opacity}},
