@@ -4,7 +4,7 @@
 
 /// Covariances of the latent function at any points with those at a few fixed ones.
 ///
-/// As Model::covariance of one explanation of the runs, in which R⁻¹r of the fixed points Z is solved for once:
+/// They are those of Model::covariance by one explanation of the runs, with R⁻¹r of the fixed points Z solved for once:
 ///   s²(x, z) = s² [c(x, z) − rₓᵀ(R⁻¹r_z) + uₓᵀ(FᵀR⁻¹F)⁻¹u_z] + gₓᵀV g_z
 /// Cost p n² for p fixed points, then n (p + q) per point.
 

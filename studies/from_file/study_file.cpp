@@ -326,7 +326,7 @@ Word parsed_word(const std::string& word) {
   return {word.substr(colon + 1), word.substr(1, colon - 1)};
 }
 
-/// Of a study file and all that its command names.
+/// What changes when a study file, or what its command names, does.
 std::string checksum_of(const json& content, const Command& command) {
   return doe::detail::checksum(content.dump() + command.simulator);
 }

@@ -5,11 +5,13 @@
 
 #include <drawpoint/kriging/fit_fidelities.hpp>
 #include <drawpoint/tests/kriging/fidelity_functions.hpp>
+#include <drawpoint/tests/support/median.hpp>
 
 using namespace drawpoint;
 using namespace drawpoint::kriging;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+using support::median;
 
 namespace {
 
@@ -37,11 +39,6 @@ struct Draw {
     return std::sqrt(2.0 / 500.0) * (frequency * x + phase).array().cos().sum();
   }
 };
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
 
 }  // namespace
 

@@ -12,6 +12,7 @@
 #include <drawpoint/kriging/optimize.hpp>
 #include <drawpoint/tests/doe/problems.hpp>
 #include <drawpoint/tests/kriging/test_functions.hpp>
+#include <drawpoint/tests/support/median.hpp>
 #include <drawpoint/tests/support/welded_beam.hpp>
 #include <filesystem>
 #include <numbers>
@@ -21,6 +22,7 @@
 using namespace drawpoint;
 using namespace drawpoint::kriging;
 using Eigen::VectorXd;
+using support::median;
 
 namespace {
 
@@ -28,11 +30,6 @@ doe::Problem unit_problem(int variables, doe::Goal goal = doe::Goal::minimize) {
   doe::Problem problem{{}, {{"y", "1", goal}}};
   for (int k = 0; k < variables; ++k) problem.variables.push_back({"x" + std::to_string(k), "1", 0.0, 1.0});
   return problem;
-}
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
 }
 
 doe::Seed seed_of(int k) { return static_cast<doe::Seed>(k); }

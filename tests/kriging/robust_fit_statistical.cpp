@@ -12,12 +12,14 @@
 #include <drawpoint/kriging/validate.hpp>
 #include <drawpoint/tests/kriging/corner_design.hpp>
 #include <drawpoint/tests/kriging/test_functions.hpp>
+#include <drawpoint/tests/support/median.hpp>
 #include <vector>
 
 using namespace drawpoint;
 using namespace drawpoint::kriging;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+using support::median;
 
 namespace {
 
@@ -32,11 +34,6 @@ VectorXd noise(Eigen::Index count, doe::Seed seed) {
   VectorXd z(count);
   for (double& value : z) value = random.normal();
   return z;
-}
-
-double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
-  return values[values.size() / 2];
 }
 
 // Of 11 fits to 100 runs of unit normal noise: medians of the noise found and of the mean's error.

@@ -14,6 +14,7 @@
 #include <drawpoint/kriging/save.hpp>
 #include <drawpoint/tests/kriging/test_functions.hpp>
 #include <drawpoint/tests/kriging/wide_functions.hpp>
+#include <drawpoint/tests/support/median.hpp>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,7 @@ using namespace drawpoint;
 using namespace drawpoint::kriging;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+using support::median;
 
 namespace {
 
@@ -36,7 +38,7 @@ struct Runs {
   VectorXd y, truth;
 };
 
-/// Of a Latin hypercube; noise: over the deviation of the function.
+/// Runs on a Latin hypercube; noise: over the deviation of the function.
 Runs runs_of(const reference::TestFunction& f, int count, doe::Seed seed, double noise = 0) {
   Runs runs{
       reference::design(count, f.variables, seed), reference::design(500, f.variables, 1000 + seed), {}, {}};
@@ -51,7 +53,7 @@ Runs runs_of(const reference::TestFunction& f, int count, doe::Seed seed, double
   return runs;
 }
 
-/// Arm's runs that leave doubt.
+/// Runs of the arm, and the model that they leave in doubt.
 struct Doubtful {
   Runs runs;
   Model model;
@@ -70,12 +72,6 @@ double held(const Model& model, const Runs& runs) {
   const Prediction p = model.predict(runs.Z);
   const auto inside = ((p.mean - runs.truth).array().abs() <= 1.96 * p.variance.array().sqrt()).count();
   return static_cast<double>(inside) / static_cast<double>(runs.truth.size());
-}
-
-double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
-                   values.end());
-  return values[values.size() / 2];
 }
 
 }  // namespace
@@ -130,7 +126,7 @@ TEST(TwoExplanations, AreKeptByFilesAndByWhatChangesModels) {
   const Model more = append(model, runs.Z.topRows(5), runs.truth.head(5));
   ASSERT_GT(more.doubt(), 0);
   EXPECT_EQ(more.state().other->X.rows(), 65);
-  // Of the exact explanation nothing is left at a run but how far the noisy mean lies from it.
+  // The exact explanation knows a run: it leaves no more than how far the noisy mean lies from it.
   const Prediction there = more.predict(runs.Z.topRows(5));
   for (Eigen::Index i = 0; i < 5; ++i) {
     const double apart = there.mean[i] - runs.truth[i];

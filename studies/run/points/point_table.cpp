@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
+#include <drawpoint/studies/run/counts.h>
 #include <drawpoint/studies/run/points/point_table.h>
 #include <drawpoint/studies/run/settings.h>
 #include <drawpoint/doe/detail/round_off.hpp>
@@ -90,8 +91,8 @@ TablePlace read_table(const std::filesystem::path& file, const std::string& opti
       place.fail("it has " + std::to_string(record->size()) + " fields, and the first line has " +
                  std::to_string(header->size()) +
                  "; numbers take a decimal point, and a text with a comma stands in quotes");
-    for (std::size_t k = 1; k < record->size();
-         ++k)  // the first may hold names of rows, as pandas and R write them
+    // The first column may hold names of rows, as pandas and R write them.
+    for (std::size_t k = 1; k < record->size(); ++k)
       if ((*header)[k].empty() && !(*record)[k].empty())
         place.fail("\"" + (*record)[k] +
                    "\" stands under no name; name the column, or empty it: numbers take a decimal point");
@@ -153,13 +154,9 @@ double response_from(const std::string& text, const doe::Response& response, con
   return value;
 }
 
-bool is_word_of_status(const std::string& text) {
-  static const std::set<std::string> words = {"done", "failed", "planned", "running", ""};
-  return words.contains(text);
-}
-
 void check_status(const std::string& text, const TablePlace& place) {
-  if (!is_word_of_status(text))
+  const auto is_this = [&](Status status) { return name_of(status) == text; };
+  if (!text.empty() && std::none_of(all_states.begin(), all_states.end(), is_this))
     place.fail("\"status\" is \"" + text + "\"; allowed are done, failed, planned and running");
 }
 

@@ -3,12 +3,11 @@
 // What is behind a scene, and the glow around its lamps.
 
 import * as THREE from 'three';
+import {aroundPicture} from './over_all.js';
 
 /// Fills what nothing covers: from one colour below to another above.
 export class Backdrop {
   constructor() {
-    const geometry = new THREE.BufferGeometry();
-    geometry.setAttribute('position', new THREE.Float32BufferAttribute([-1, -1, 0, 3, -1, 0, -1, 3, 0], 3));
     this.low = {value: new THREE.Vector3()};
     this.high = {value: new THREE.Vector3()};
     const material = new THREE.RawShaderMaterial({
@@ -27,7 +26,7 @@ export class Backdrop {
       uniforms: {low: this.low, high: this.high},
       depthWrite: false,
     });
-    this.mesh = new THREE.Mesh(geometry, material);
+    this.mesh = new THREE.Mesh(aroundPicture(), material);
     this.mesh.frustumCulled = false;
     this.mesh.renderOrder = 3;
   }

@@ -3,6 +3,7 @@
 // A picture of a scene: with smooth edges, or coarse where pictures follow each other and the machine is slow.
 
 import * as THREE from 'three';
+import {overAll} from './over_all.js';
 
 const slow = 45, // [ms] between two pictures, above which they get coarser
   fewer = 0.7, // of the pixels along a side, in the coarsest
@@ -58,24 +59,15 @@ export class Picture {
     this.renderer = renderer;
     this.size = new THREE.Vector2();
     this.target = new THREE.WebGLRenderTarget(1, 1, {samples: 4, depthBuffer: true, generateMipmaps: false});
-    const geometry = new THREE.BufferGeometry();
-    geometry.setAttribute('position', new THREE.Float32BufferAttribute([-1, -1, 0, 3, -1, 0, -1, 3, 0], 3));
-    this.copy = new THREE.Mesh(
-      geometry,
-      new THREE.RawShaderMaterial({
-        glslVersion: THREE.GLSL3,
-        vertexShader: 'in vec3 position; void main() { gl_Position = vec4(position.xy, 0.0, 1.0); }',
-        fragmentShader: `
-          precision highp float;
-          uniform sampler2D drawn;
-          out vec4 pixel;
-          void main() { pixel = texelFetch(drawn, ivec2(gl_FragCoord.xy), 0); }`,
-        uniforms: {drawn: {value: this.target.texture}},
-        depthTest: false,
-        depthWrite: false,
-      }),
+    this.copy = overAll(
+      `
+      precision highp float;
+      uniform sampler2D drawn;
+      out vec4 pixel;
+      void main() { pixel = texelFetch(drawn, ivec2(gl_FragCoord.xy), 0); }`,
+      {drawn: {value: this.target.texture}},
+      {depthTest: false, depthWrite: false},
     );
-    this.copy.frustumCulled = false;
     this.camera = new THREE.Camera();
   }
 

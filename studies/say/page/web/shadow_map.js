@@ -11,7 +11,7 @@ const side = 1024,
 const halves = new THREE.Matrix4().set(0.5, 0, 0, 0.5, 0, 0.5, 0, 0.5, 0, 0, 0.5, 0.5, 0, 0, 0, 1);
 
 /// Depths from the light, and the matrix that finds a place in them.
-class Map {
+class DepthMap {
   constructor(renderer, size, texture, matrix) {
     this.target = new THREE.WebGLRenderTarget(size, size, {depthBuffer: true});
     const depths = (this.target.depthTexture = new THREE.DepthTexture(size, size, THREE.UnsignedIntType));
@@ -40,8 +40,8 @@ export class ShadowMap {
   constructor(renderer, light) {
     this.renderer = renderer;
     this.light = light;
-    this.resting = new Map(renderer, side, light.shadow, light.shadowMatrix);
-    this.moving = new Map(renderer, movingSide, light.movingShadow, light.movingMatrix);
+    this.resting = new DepthMap(renderer, side, light.shadow, light.shadowMatrix);
+    this.moving = new DepthMap(renderer, movingSide, light.movingShadow, light.movingMatrix);
     this.material = depthMaterial();
     this.late = true; // the shadow of what moves is a moved one
   }

@@ -117,22 +117,9 @@ export class Stage {
       turn.toArray(part.turn);
       changed(part);
     }
-    this.movingBox = this.boxOfMoving();
+    this.movingBox = boxOf(this.others.filter((part) => part.solid));
     this.rocks.setTime(place, hurried);
     if (this.headLamps?.length) this.aimHeadLamps(place);
-  }
-
-  /// Around what moves and is solid.
-  boxOfMoving() {
-    const box = new THREE.Box3();
-    for (const part of this.others) {
-      if (!part.solid || !part.place[3]) continue;
-      const {centre, radius} = sphereOf(part);
-      box
-        .expandByPoint(position.copy(centre).addScalar(radius))
-        .expandByPoint(position.copy(centre).addScalar(-radius));
-    }
-    return box;
   }
 
   aimHeadLamps(place) {
@@ -147,15 +134,8 @@ export class Stage {
   /// Sphere around what is solid now.
   extent() {
     if (this.panel.drift) return extentOfDrift(this.panel.drift);
-    const box = new THREE.Box3(),
-      solid = this.others.filter((part) => part.solid);
-    for (const part of solid.length ? solid : this.others) {
-      if (!part.place[3]) continue;
-      const {centre, radius} = sphereOf(part);
-      box
-        .expandByPoint(position.copy(centre).addScalar(radius))
-        .expandByPoint(position.copy(centre).addScalar(-radius));
-    }
+    const solid = this.others.filter((part) => part.solid),
+      box = boxOf(solid.length ? solid : this.others);
     this.rocks.growBox(box);
     const sphere = box.getBoundingSphere(new THREE.Sphere());
     return {centre: sphere.center, radius: Math.max(sphere.radius, 0.1)};
@@ -171,6 +151,17 @@ const surfacesOf = (light, opacity) => ({
   quick: surfaceMaterial(light, {opacity, quality: 'QUICK'}),
   simple: surfaceMaterial(light, {opacity, quality: 'SIMPLE'}),
 });
+
+/// Around those parts that are there.
+function boxOf(parts) {
+  const box = new THREE.Box3();
+  for (const part of parts) {
+    if (!part.place[3]) continue;
+    const {centre, radius} = sphereOf(part);
+    box.expandByPoint(position.copy(centre).addScalar(radius)).expandByPoint(position.copy(centre).addScalar(-radius));
+  }
+  return box;
+}
 
 /// Around a part where it is: {centre, radius}.
 function sphereOf({mesh, turn: turned, place}) {

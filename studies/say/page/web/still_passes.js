@@ -3,6 +3,7 @@
 // What makes a picture of a still one that is kept in parts (still_picture.js).
 
 import * as THREE from 'three';
+import {overAll} from './over_all.js';
 import {beamed, folded, packed, seen, within} from './shader_parts.js';
 
 const lightShader = `
@@ -39,22 +40,6 @@ const copyShader = `
     gl_FragDepth = texelFetch(depths, at, 0).r;
     pixel = texelFetch(shown, at, 0);
   }`;
-
-/// Covers all of a picture with what a shader makes of textures and light.
-function overAll(fragmentShader, uniforms, state) {
-  const geometry = new THREE.BufferGeometry();
-  geometry.setAttribute('position', new THREE.Float32BufferAttribute([-1, -1, 0, 3, -1, 0, -1, 3, 0], 3));
-  const material = new THREE.RawShaderMaterial({
-    glslVersion: THREE.GLSL3,
-    vertexShader: 'in vec3 position; void main() { gl_Position = vec4(position.xy, 0.0, 1.0); }',
-    fragmentShader,
-    uniforms,
-    ...state,
-  });
-  const mesh = new THREE.Mesh(geometry, material);
-  mesh.frustumCulled = false;
-  return mesh;
-}
 
 /// {light, copy}: meshes over all of a picture. The one puts together the three parts of a still picture, with
 /// their depths, the shadows and the head lamps' light; toWorld turns a place in the picture into one in the world. The

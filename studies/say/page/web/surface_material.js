@@ -93,10 +93,10 @@ const vertexShader = `
     vec3 always = dusty * (light * open + 6.0 * finish.y);
     vec3 unshaded = dusty * keyColour * (max(0.0, dot(n, keyWay)) * sqrt(open) * (1.0 - finish.y));
     vec4 above = vec4(p + 0.04 * n, 1.0);
-    vec3 onMap = (shadowMatrix * above).xyz, onMoving = within((movingMatrix * above).xyz);
+    vec3 onMap = (shadowMatrix * above).xyz, onMoving = (movingMatrix * above).xyz;
     gl_Position = projectionMatrix * (viewMatrix * vec4(p, 1.0));
   #ifdef SIMPLE
-    shade = seen(always + unshaded * (texture(shadow, onMap) * texture(movingShadow, onMoving)));
+    shade = seen(always + unshaded * (texture(shadow, onMap) * texture(movingShadow, within(onMoving))));
   #else
     near = always;
     far = unshaded;
@@ -144,6 +144,7 @@ const fragmentShader = `
   uniform sampler2DShadow shadow, movingShadow;
   uniform sampler2D grain;
   ${seen}
+  ${within}
   float softly(sampler2DShadow map, vec3 at) {
     vec2 off = vec2(0.7, -0.7) / float(textureSize(map, 0).x);
     float sum = texture(map, at + vec3(off.xx, 0.0)) + texture(map, at + vec3(off.xy, 0.0));
@@ -151,9 +152,9 @@ const fragmentShader = `
   }
   float lit() {
   #ifdef QUICK
-    return texture(movingShadow, inMoving);
+    return texture(movingShadow, within(inMoving));
   #else
-    return softly(shadow, inShadow) * softly(movingShadow, inMoving);
+    return softly(shadow, inShadow) * softly(movingShadow, within(inMoving));
   #endif
   }
   void main() {
