@@ -109,6 +109,7 @@ TEST_F(ImportedPoints, AreRefusedWithTheirPlace) {
   has("speed,lining,wear,speed [m/s]\n2,0,1,3\n", "are of one quantity; remove one");
   has("speed,lining,wear\n2,0,-1e-12\n", "lies outside of its range");
   has("speed,lining,wear,,\n2,0,1,5,75\n", "line 2: \"5\" stands under no name");
+  has("speed,lining,wear, \n2,0,1,75\n", "line 2: \"75\" stands under no name");
   has("speed,lining,wear\n2,0,\"1\"5\n", "behind the closing quote");
   has("speed,lining,wear,status\n2,0,1,done\n3,0,1,Done\n",
       "line 3: \"status\" is \"Done\"; allowed are done");

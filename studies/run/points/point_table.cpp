@@ -29,6 +29,8 @@ std::string text_of(const std::filesystem::path& file, const std::string& option
   return text;
 }
 
+bool is_blank(const std::string& text) { return text.find_first_not_of(" \t") == text.npos; }
+
 /// A quantity may have the name of a column that ask and export give.
 bool is_of_ask(const std::string& name) {
   static const std::set<std::string> columns = {"run",  "kind",   "point",  "replicate",
@@ -93,7 +95,7 @@ TablePlace read_table(const std::filesystem::path& file, const std::string& opti
                  "; numbers take a decimal point, and a text with a comma stands in quotes");
     // The first column may hold names of rows, as pandas and R write them.
     for (std::size_t k = 1; k < record->size(); ++k)
-      if ((*header)[k].empty() && !(*record)[k].empty())
+      if (is_blank((*header)[k]) && !is_blank((*record)[k]))
         place.fail("\"" + (*record)[k] +
                    "\" stands under no name; name the column, or empty it: numbers take a decimal point");
     row(*record, place);
