@@ -158,6 +158,8 @@ struct Simulator {
   /// Words that stand before the command on the command line, such as the file that the study was read from.
   /// The processes of its runs are started with these, whatever was typed.
   std::vector<std::string> leading_words = {};
+  /// The study as a file without what makes its runs, for people who have neither: `share` packs it as study.json.
+  std::string definition = {};
 };
 
 /// What the logs of runs are good for.

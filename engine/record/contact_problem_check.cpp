@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/engine/record/contact_problem_check.h>
 #include <cmath>
+#include <cstdint>
 #include <drawpoint/engine/base/checks.hpp>
 
 namespace drawpoint::engine::record::detail {
@@ -50,7 +51,8 @@ void check_body(const SolverBody& body, Finding& find) {
   find.finite(body.inverse_inertia, "inverse_inertia");
 }
 
-void check_pair(const ContactPair& pair, const ContactProblem& problem, int& covered, Finding& find) {
+void check_pair(const ContactPair& pair, const ContactProblem& problem, std::int64_t& covered,
+                Finding& find) {
   const int bodies = static_cast<int>(problem.bodies.size()),
             parts = problem.machine ? static_cast<int>(problem.machine->part_maps.size()) : 0;
   const auto side = [&](int index, const char* field) {
@@ -63,9 +65,9 @@ void check_pair(const ContactPair& pair, const ContactProblem& problem, int& cov
   find.require(pair.count > 0, "count", std::to_string(pair.count), "1 or more");
   find.require(pair.first == covered, "first", std::to_string(pair.first),
                "the end of the pair before, so that the pairs cover the points in order");
-  covered = pair.first + pair.count;
-  find.require(covered <= static_cast<int>(problem.points.size()), "count", std::to_string(pair.count),
-               "no more than there are points");
+  covered = std::int64_t{pair.first} + pair.count;
+  find.require(covered <= static_cast<std::int64_t>(problem.points.size()), "count",
+               std::to_string(pair.count), "no more than there are points");
   find.not_negative(pair.rolling_arm, "rolling_arm");
   find.not_negative(pair.spinning_arm, "spinning_arm");
   find.finite(pair.start, "start");
@@ -133,12 +135,12 @@ std::string problem_fault(const ContactProblem& problem) {
     find.at("bodies", k);
     check_body(problem.bodies[k], find);
   }
-  int covered = 0;
+  std::int64_t covered = 0;
   for (std::size_t k = 0; k < problem.pairs.size() && find.fault().empty(); ++k) {
     find.at("pairs", k);
     check_pair(problem.pairs[k], problem, covered, find);
   }
-  find.require(covered == static_cast<int>(problem.points.size()), "count",
+  find.require(covered == static_cast<std::int64_t>(problem.points.size()), "count",
                std::to_string(covered) + " in all", "all points belong to a pair");
   for (std::size_t k = 0; k < problem.points.size(); ++k) {
     find.at("points", k);

@@ -313,7 +313,11 @@ int parse_and_act(int argc, char** argv, const Study& study) {
   try {
     app.parse(words);
   } catch (const CLI::ParseError& e) {
-    if (e.get_exit_code() == 0) return app.exit(e);
+    if (e.get_exit_code() == 0) {
+      std::ostringstream text;
+      app.exit(e, text);
+      return std::fputs(text.str().c_str(), stdout) < 0;
+    }
     std::fprintf(stderr, "%s: %s%s; see %s --help\n", study.name.c_str(), e.what(), meant_by(app, e).c_str(),
                  program.c_str());
     return wrong_usage;
@@ -329,6 +333,20 @@ int complain(const Study& study, const char* what, int code) {
   return code;
 }
 
+void check_line(const std::string& what, const std::string& text) {
+  if (std::any_of(text.begin(), text.end(), [](unsigned char c) { return std::iscntrl(c); }))
+    throw std::invalid_argument("studies::Study: " + what +
+                                " holds a control character; use printable text on one line");
+}
+
+void check_lines(const doe::Problem& problem) {
+  for (const doe::Variable& v : problem.variables) {
+    check_line("the unit of \"" + v.name + "\"", v.unit);
+    for (const std::string& level : v.levels) check_line("a level of \"" + v.name + "\"", level);
+  }
+  for (const doe::Response& r : problem.responses) check_line("the unit of \"" + r.name + "\"", r.unit);
+}
+
 void check_study(const Study& study) {
   const auto plain = [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; };
   if (study.name.empty() || !std::all_of(study.name.begin(), study.name.end(), plain)) {
@@ -336,6 +354,7 @@ void check_study(const Study& study) {
                                 "\" cannot name a folder; use letters, digits, '_' and '-'");
   }
   doe::check(study.problem);
+  check_lines(study.problem);
   check(study.options);
   check(study.presets, study.options);
   check_marks(study.problem, study.presentation.marks);
@@ -348,7 +367,7 @@ int run(int argc, char** argv, const Study& study) {
   try {
     check_study(study);
     const int code = parse_and_act(argc, argv, study);
-    if (std::fflush(stdout) == 0) return code;
+    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
     return complain(study, "studies: cannot write to standard output; is the disk full?", failure);
   } catch (const UsageError& e) {
     return complain(study, e.what(), wrong_usage);

@@ -42,15 +42,17 @@ std::set<std::int64_t> damaged_logs(const Folder& folder, const std::vector<Run>
   return damaged;
 }
 
-std::vector<FileToShare> chosen_files(const Folder& folder, const ShareSettings& settings,
+std::vector<FileToShare> chosen_files(const Folder& folder, const Study& study, const ShareSettings& settings,
                                       const std::set<std::int64_t>& damaged) {
   std::vector<FileToShare> files = files_to_share(folder.path);
   std::erase_if(files, [&](const FileToShare& file) {
     if (!settings.logs && file.name.starts_with("logs/")) return true;
     for (const std::int64_t id : damaged)
       if (file.from == folder.log(id)) return true;
-    return false;
+    return !study.simulator.definition.empty() && file.name == definition_name;
   });
+  if (!study.simulator.definition.empty())
+    files.push_back({definition_name, folder.path / definition_name, study.simulator.definition});
   return files;
 }
 
@@ -99,6 +101,12 @@ void require_new_folder(const fs::path& folder) {
                    " is there already, and nothing is written over; name a new folder with --out");
 }
 
+/// Who gets the file has no study file yet: it lies within.
+std::string opening_program(const Study& study, const Settings& settings) {
+  return study.simulator.definition.empty() ? settings.program
+                                            : settings.program.substr(0, settings.program.find(' '));
+}
+
 }  // namespace
 
 int share_command(const Study& study, const Settings& settings) {
@@ -117,7 +125,7 @@ int share_command(const Study& study, const Settings& settings) {
   const std::vector<Run> runs = store.runs();
   const std::set<std::int64_t> damaged =
       settings.share.logs ? damaged_logs(folder, runs) : std::set<std::int64_t>();
-  const std::vector<FileToShare> files = chosen_files(folder, settings.share, damaged);
+  const std::vector<FileToShare> files = chosen_files(folder, study, settings.share, damaged);
   write_share(file, files,
               {{"study", study.name},
                {"program", program_version()},
@@ -130,7 +138,8 @@ int share_command(const Study& study, const Settings& settings) {
     return 0;
   }
   std::printf("%zu files of %s in %s; elsewhere: %s open %s --out FOLDER\n", files.size(),
-              folder.path.c_str(), file.c_str(), settings.program.c_str(), file.filename().c_str());
+              folder.path.c_str(), file.c_str(), opening_program(study, settings).c_str(),
+              file.filename().c_str());
   for (const std::string& caution : cautions) std::printf("Caution: %s\n", caution.c_str());
   return 0;
 }

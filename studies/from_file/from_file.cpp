@@ -9,6 +9,7 @@
 #include <exception>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,6 +30,7 @@ language, with a request to read and a reply to write. docs/tutorials/first-stud
   %s throw.json --runs 40 --validation 10   # plan, run, fit, report
   %s throw.json confirm                     # simulate what the front promises
   %s throw.json --help                      # all commands and options
+  %s open throw.drawpoint FOLDER            # a study that somebody shares, with its STUDY.json
 )";
 
 int run_study(std::vector<std::string> words, const studies::Study& study) {
@@ -45,6 +47,14 @@ int of_any_study(const std::string& program, const std::string& question) {
                            .about = about,
                            .simulator = {.leading_words = {"STUDY.json"}}};
   return run_study({program, "STUDY.json", question}, any);
+}
+
+/// `open FILE ...`: the study lies in the file.
+int opened(std::vector<std::string> words) {
+  if (words.size() < 3) throw std::runtime_error("open: no file; give one that the command share made");
+  const studies::Study study = studies::study_in_share(words[2]);
+  words.insert(words.begin() + 1, "STUDY.json");
+  return run_study(std::move(words), study);
 }
 
 /// `complete STUDY.json WORD...` is asked of the study. The name of the file itself is the shell's.
@@ -70,11 +80,13 @@ int main(int argc, char** argv) {
   const bool help = first == "--help" || first == "-h";
   if (help || first.empty() || (first[0] == '-' && first != "--version")) {
     const char* name = program.c_str();
-    std::fprintf(help ? stdout : stderr, usage, name, name, name, name);
-    return help ? 0 : 2;
+    std::fprintf(help ? stdout : stderr, usage, name, name, name, name, name);
+    if (!help) return 2;
+    return std::fflush(stdout) == 0 && std::ferror(stdout) == 0 ? 0 : 1;
   }
   try {
     if (first == "--version" || first == "man-page" || first == "about") return of_any_study(argv[0], first);
+    if (first == "open") return opened({argv, argv + argc});
     if (first == "complete") return completed({argv, argv + argc});
     return studies::run(argc, argv, studies::study_from(first));
   } catch (const std::exception& e) {

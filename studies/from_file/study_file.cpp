@@ -2,17 +2,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/from_file/simulator_files.h>
 #include <drawpoint/studies/from_file/study_file.h>
+#include <drawpoint/studies/run/program/strict_json.h>
+#include <drawpoint/studies/run/store/share_file.h>
 #include <drawpoint/doe/detail/hash.hpp>
 #include <drawpoint/doe/problem.hpp>
 #include <drawpoint/studies/external_program.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <fstream>
 #include <initializer_list>
 #include <iterator>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <stdexcept>
 #include <string>
 #include <system_error>
@@ -298,19 +300,10 @@ json parsed(const fs::path& file) {
       !std::ifstream(file))
     throw std::runtime_error(file.string() + ": cannot be read; give the JSON file of a study");
   const std::string text = content_of(file);
-  std::vector<std::set<std::string>> keys;  // of the objects that are open
-  const auto once = [&](int, json::parse_event_t event, json& value) {
-    if (event == json::parse_event_t::object_start) keys.emplace_back();
-    if (event == json::parse_event_t::object_end) keys.pop_back();
-    if (event == json::parse_event_t::key && !keys.back().insert(value.get<std::string>()).second)
-      throw std::runtime_error(file.string() + ": the key " + value.dump() +
-                               " stands twice in one object; remove one");
-    return true;
-  };
   try {
-    return json::parse(text, once);
-  } catch (const json::exception& e) {
-    throw std::runtime_error(file.string() + ": no JSON: " + e.what());
+    return strict_json(text);
+  } catch (const std::runtime_error& e) {
+    throw std::runtime_error(file.string() + " " + e.what());
   }
 }
 
@@ -353,11 +346,16 @@ StudyFunction unchanged(StudyFunction program, const fs::path& file, const std::
   };
 }
 
-}  // namespace
+constexpr std::array keys_of_command = {"attempts", "time_limit", "exchange", "files", "version"};
 
-Study study_from(const std::string& word) {
-  const auto [file, expected] = parsed_word(word);
-  const json content = parsed(file);
+/// For people who have no such program.
+std::string without_command(json content) {
+  content.erase("command");
+  for (const char* key : keys_of_command) content.erase(key);
+  return content.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
+}
+
+Study study_of(const json& content, const fs::path& file, const std::string& expected) {
   const Section in(content, file, "");
   in.allow_only({"name", "about", "variables", "responses", "deterministic", "command", "exchange", "files",
                  "version", "attempts", "time_limit", "defaults", "marks"});
@@ -365,7 +363,7 @@ Study study_from(const std::string& word) {
   if (in.has("defaults")) study.defaults = defaults_from(in.section("defaults"));
   if (in.has("marks")) study.presentation.marks = marks_from(in, study.problem);
   const bool elsewhere = !in.has("command");
-  for (const char* key : {"attempts", "time_limit", "exchange", "files", "version"})
+  for (const char* key : keys_of_command)
     if (elsewhere && in.has(key))
       in.fail("\"" + std::string(key) +
               "\" is of a command, and there is none; give \"command\", or leave it out: then runs are made "
@@ -376,6 +374,7 @@ Study study_from(const std::string& word) {
   if (!expected.empty() && expected != checksum)
     in.fail("it or its program changed while the study ran; give the command again, with --retry-failed");
   study.simulator.name = command.simulator;
+  study.simulator.definition = without_command(content);
   study.simulator.leading_words = {"@" + checksum + ":" + fs::absolute(file).string()};
   if (elsewhere) return study;
   const ExternalProgram program{.command = command.words,
@@ -388,6 +387,29 @@ Study study_from(const std::string& word) {
     in.fail(e.what());
   }
   return study;
+}
+
+}  // namespace
+
+Study study_from(const std::string& word) {
+  const auto [file, expected] = parsed_word(word);
+  return study_of(parsed(file), file, expected);
+}
+
+Study study_in_share(const fs::path& share) {
+  const std::string text = shared_definition(share);
+  if (text.empty())
+    throw std::runtime_error(
+        "open: " + share.string() +
+        " holds no study file; its study is another program's, or name the file that whoever shared "
+        "it has: external_program STUDY.json open " +
+        share.string());
+  const fs::path file = share / definition_name;
+  try {
+    return study_of(strict_json(text), file, "");
+  } catch (const std::exception& e) {
+    throw std::runtime_error("open: " + file.string() + " " + e.what());
+  }
 }
 
 }  // namespace drawpoint::studies

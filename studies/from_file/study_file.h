@@ -34,4 +34,7 @@ namespace drawpoint::studies {
 /// the file, the place in it and what is allowed there, or says that it changed.
 Study study_from(const std::string& word);
 
+/// The study of a file that `share` made: without its command, so that no run can be made but elsewhere.
+Study study_in_share(const std::filesystem::path& share);
+
 }  // namespace drawpoint::studies

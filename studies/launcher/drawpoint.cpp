@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <set>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -127,7 +128,10 @@ int main(int argc, char** argv) {
       argv[2] = argv[1];
       return start(program, argv + 1);
     }
-    return answer(first, {argv + std::min(argc, 2), argv + argc}, folder, studies);
+    const int code = answer(first, {argv + std::min(argc, 2), argv + argc}, folder, studies);
+    if (std::fflush(stdout) != 0)
+      throw std::runtime_error("cannot write to standard output; is the disk full?");
+    return code;
   } catch (const std::exception& e) {
     std::fprintf(stderr, "drawpoint: %s\n", e.what());
     return 1;

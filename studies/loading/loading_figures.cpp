@@ -108,7 +108,7 @@ json cycles_panel(const LoadingLog& log) {
 json figures_of_cycle(const LoadingLog& log, const CycleRecord& cycle, const OptionValues& options) {
   const std::string who = name_of(cycle) + " of the run shown";
   const engine::loading::DamageOptions damage = damage_options(options);
-  json panels = {path_panel(log, cycle, who, "Planned and actual path of the cutting edge")};
+  json panels = json::array({path_panel(log, cycle, who, "Planned and actual path of the cutting edge")});
   if (json plan = plan_view_panel(log, cycle, who); !plan.is_null()) panels.push_back(std::move(plan));
   panels.push_back(scene_panel(log, cycle, who, "The machine in the drift", damage));
   panels.push_back(forces_panel(log, cycle, damage.tau_y));

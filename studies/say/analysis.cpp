@@ -154,7 +154,9 @@ Summary analyse(const Study& study, const Store& store, const Folder& folder, co
   try {
     add_models(input, store.identity().seed);
   } catch (const std::invalid_argument& e) {
-    summary.error = "no models, so no report: " + std::string(e.what());
+    const bool none = input.training.X().rows() == 0;
+    summary.error =
+        "no models, so no report: " + std::string(none ? "no training run has given values" : e.what());
     const std::string failures = failure_warning(input);
     if (!failures.empty()) summary.error += "; " + failures;
     summary.answer = answer_sentences(input);

@@ -305,9 +305,11 @@ TEST_F(BadInput, AReportNeedsAStudy) {
 }
 
 TEST_F(BadInput, AFullStandardOutput) {
-  const Ended end = run(study + " evaluate --x 0.1,0.1 > /dev/full");
-  EXPECT_EQ(end.code, 1);
-  EXPECT_TRUE(contains(end.err, "cannot write to standard output"));
+  for (const char* words : {" evaluate --x 0.1,0.1", " --version", " --help", " man-page"}) {
+    const Ended end = run(study + words + " > /dev/full");
+    EXPECT_EQ(end.code, 1) << words;
+    EXPECT_TRUE(contains(end.err, "cannot write to standard output")) << words;
+  }
 }
 
 }  // namespace

@@ -98,7 +98,7 @@ TEST_F(ExternalProgram, IsToldThePointByNameTheSeedAndItsFiles) {
 
 TEST_F(ExternalProgram, FailsWithAReason) {
   EXPECT_EQ(reason(R"(echo '{"failure": "stuck"}' > $2)"), "stuck");
-  EXPECT_EQ(reason("exit 3"), "the program \"sh\" crashed: it ended with exit code 3");
+  EXPECT_EQ(reason("exit 3"), "the program \"sh\" gave no result: it ended with exit code 3");
   EXPECT_TRUE(contains(reason("kill -SEGV $$"), "SIGSEGV"));
   EXPECT_TRUE(contains(reason("true"), "it wrote no reply"));
   EXPECT_TRUE(contains(reason("echo nonsense > $2"), "is no JSON"));
@@ -235,6 +235,29 @@ TEST_F(ExternalProgram, ThatChangesEndsTheStudy) {
       << "run 1 has ended when the script changed itself";
 }
 
+// Who opens what somebody shares has neither study file nor program, and may read all and run nothing.
+TEST_F(ExternalProgram, IsSharedWithItsStudyFile) {
+  const std::string ours = study(half, R"(, "version": "2", "files": ["simulate.sh"])");
+  ASSERT_EQ(run(ours + " --runs 4 --validation 1" + out()).code, 0);
+  const fs::path file = place_ / "one.drawpoint", there = place_ / "far" / "away";
+  const Ended shared = run(ours + " share " + dir().string() + " --output " + file.string());
+  EXPECT_TRUE(contains(shared.out, "external_program open one.drawpoint --out FOLDER")) << shared.err;
+  const std::string rows = run(ours + " export" + out()).out;
+  fs::remove(place_ / "study.json");
+  fs::remove(place_ / "simulate.sh");
+  const Ended opened = run(EXTERNAL_PROGRAM " open " + file.string() + " " + there.string());
+  ASSERT_EQ(opened.code, 0) << opened.err;
+  const std::string theirs = EXTERNAL_PROGRAM " " + (there / "study.json").string(),
+                    of_it = " --out " + there.string();
+  EXPECT_EQ(run(theirs + " export" + of_it).out, rows);
+  EXPECT_EQ(run(theirs + " report" + of_it).code, 0);
+  EXPECT_TRUE(contains(run(theirs + " run --runs 9" + of_it).err, "runs are made elsewhere"));
+  const Ended again = run(theirs + " share" + of_it + " --output " + (place_ / "two.drawpoint").string());
+  EXPECT_EQ(again.code, 0) << again.err;
+  SQLite::Database(file.string(), SQLite::OPEN_READWRITE).exec("DELETE FROM sqlar WHERE name = 'study.json'");
+  EXPECT_TRUE(contains(run(EXTERNAL_PROGRAM " open " + file.string()).err, "holds no study file"));
+}
+
 TEST_F(ExternalProgram, StudyFilesAreReadStrictly) {
   const std::string x = R"("variables": [{"name": "x", "lower": 0, "upper": 1}],)";
   const std::string y = R"("responses": [{"name": "y", "goal": "minimize"}],)";
@@ -244,6 +267,9 @@ TEST_F(ExternalProgram, StudyFilesAreReadStrictly) {
                        "\"today\": x = 2 is outside its range 0 to 1"));
   EXPECT_TRUE(contains(complaint(x + y + R"("command": ["true"], "marks": [{"name": "today", "x": ["a"]}])"),
                        "marks[0]: \"x\" is \"a\"; give numbers alone in this list"));
+  EXPECT_TRUE(contains(
+      complaint(x + R"("responses": [{"name": "y", "unit": "k\ng", "goal": "minimize"}],)" + command),
+      "the unit of \"y\" holds a control character"));
   EXPECT_TRUE(contains(complaint(x + x + y + command), "the key \"variables\" stands twice"));
   EXPECT_TRUE(contains(complaint(y + command), "\"variables\" is missing"));
   EXPECT_TRUE(contains(complaint(R"("variables": [{"name": "x", "lower": "0", "upper": 1}],)" + y + command),

@@ -118,9 +118,10 @@ TEST_F(HostileProgram, WhoseFirstRunsAllFailAlikeStopsTheStudy) {
   const std::string options = " --runs 30 --validation 0 --jobs 1" + out();
   const Ended end = run(study(wrong) + options);
   EXPECT_EQ(end.code, 1);
-  EXPECT_TRUE(contains(end.err,
-                       "the first 5 runs all failed alike: the program \"sh\" crashed: it ended with exit "
-                       "code 1; it printed last \"KeyError: 'x' at 0x7f"));
+  EXPECT_TRUE(
+      contains(end.err,
+               "the first 5 runs all failed alike: the program \"sh\" gave no result: it ended with exit "
+               "code 1; it printed last \"KeyError: 'x' at 0x7f"));
   EXPECT_TRUE(contains(end.err, "(logs/run_0001.txt)"));
   EXPECT_TRUE(contains(end.err, "the command check makes one run"));
   EXPECT_EQ(count("status = 'failed'"), 5);
@@ -141,10 +142,11 @@ TEST_F(HostileProgram, ThatFailsHereAndThereGoesOn) {
 
 TEST_F(HostileProgram, AnExitCodeOf127IsACrash) {
   const std::string tries = (place_ / "tries").string();
-  EXPECT_EQ(reason_of("echo x >> " + tries + "; no_such_command", R"(, "attempts": 2)"),
-            "the program \"sh\" crashed in each of 2 attempts, at last: it ended with exit code 127, a "
-            "shell's for a "
-            "program that it does not find");
+  EXPECT_EQ(
+      reason_of("echo x >> " + tries + "; no_such_command", R"(, "attempts": 2)"),
+      "the program \"sh\" gave no result in each of 2 attempts, at last: it ended with exit code 127, a "
+      "shell's for a "
+      "program that it does not find");
   EXPECT_EQ(contents(tries), "x\nx\n");
 }
 
@@ -168,8 +170,8 @@ TEST_F(HostileProgram, StreamsAreTakenForFiles) {
       R"(grep -q '"seed": 7' || exit 9; echo thinking; echo '{"values": {"y": 0.25}}')";
   const std::string streams = R"(, "exchange": "streams")";
   EXPECT_EQ(run(study(program, streams) + " evaluate --x=0.5 --seed 7 --json").json()["values"]["y"], 0.25);
-  EXPECT_TRUE(contains(reason_of("echo no JSON", streams), "crashed: its reply is no JSON"));
-  EXPECT_EQ(reason_of("true", streams), "the program \"sh\" crashed: it wrote no reply");
+  EXPECT_TRUE(contains(reason_of("echo no JSON", streams), "gave no result: its reply is no JSON"));
+  EXPECT_EQ(reason_of("true", streams), "the program \"sh\" gave no result: it wrote no reply");
   EXPECT_EQ(run(study(R"(grep -q '"seed": 7' && )" + good_reply) + " evaluate --x=0.5 --seed 7").code, 0)
       << "the request is on standard input with files, too";
 }

@@ -133,7 +133,11 @@ inline const std::vector<Row>& dependency_table() {
        study_rooms({"doe/", "kriging/", "pareto/", "engine/"}, {"loading"}),
        {"Eigen", "nlohmann-json"},
        {}},
-      {"studies/from_file/", study_rooms({"doe/"}, {"from_file"}), {"nlohmann-json"}, {}},
+      // JSON of strangers is read in one way, and a shared file holds the study.
+      {"studies/from_file/",
+       study_rooms({"doe/"}, {"run/program", "run/store", "from_file"}),
+       {"nlohmann-json"},
+       {}},
       {"studies/launcher/",
        {"studies/commands/options/did_you_mean.h", "studies/commands/options/option_tree.h"},
        {},

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <drawpoint/kriging/detail/near_best.hpp>
 #include <drawpoint/kriging/optimize.hpp>
+#include <drawpoint/tests/support/median.hpp>
 #include <numbers>
 #include <set>
 #include <vector>
@@ -17,6 +18,7 @@ using namespace drawpoint;
 using namespace drawpoint::kriging;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+using support::median;
 
 namespace {
 
@@ -78,7 +80,7 @@ TEST(NearBest, HoldsItsPoints) {
 
 // Rastrigin's function of four inputs has 10 000 valleys in this box, the best of 60 random points is 22 to 31. The
 // median of eleven searches is 4; it is 15 without models that are sums of one variable each, and 22 without the region
-// as well.
+// as well. Five of them are made here.
 TEST(NearBest, HelpsOnARuggedFunction) {
   const auto rastrigin = [](const VectorXd& u) {
     double sum = 0;
@@ -92,14 +94,14 @@ TEST(NearBest, HelpsOnARuggedFunction) {
   for (int k = 0; k < 4; ++k) problem.variables.push_back({"u" + std::to_string(k), "1", 0.0, 1.0});
   problem.responses = {{"y", "1", doe::Goal::minimize}};
   std::vector<double> best;
-  for (doe::Seed seed = 1; seed <= 11; ++seed)
+  for (doe::Seed seed = 1; seed <= 5; ++seed)
     best.push_back(optimize(rastrigin, problem, 60, {.seed = seed}).best.front().y[0]);
-  std::nth_element(best.begin(), best.begin() + 5, best.end());
-  EXPECT_LT(best[5], 10.0);
+  EXPECT_LT(median(best), 10.0);
 }
 
 // Five wells of a width of a tenth: only runs elsewhere tell that the best of them is another one. A search that stays
-// near its best run misses it for 13 of 16 seeds, one without the region for 1.
+// near its best run misses it for 13 of 16 seeds, one without the region for 1: at these rates 2 of 10 and fewer are
+// missed with a probability of 0.005 % and 98 %.
 TEST(NearBest, LeavesAWellForADeeperOne) {
   const MatrixXd places =
       (MatrixXd(5, 2) << 0.15, 0.2, 0.8, 0.15, 0.5, 0.55, 0.2, 0.85, 0.85, 0.8).finished();
@@ -112,7 +114,7 @@ TEST(NearBest, LeavesAWellForADeeperOne) {
   };
   const doe::Problem problem{{{"x", "1", 0.0, 1.0}, {"z", "1", 0.0, 1.0}}, {{"y", "1", doe::Goal::minimize}}};
   int missed = 0;
-  for (doe::Seed seed = 1; seed <= 16; ++seed)
+  for (doe::Seed seed = 1; seed <= 10; ++seed)
     missed += optimize(wells, problem, 60, {.seed = seed}).best.front().y[0] > -1.4;
   EXPECT_LE(missed, 2);
 }

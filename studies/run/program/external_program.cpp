@@ -193,7 +193,7 @@ doe::Outcome outcome_of_attempts(const doe::Problem& problem, const ExternalProg
     if (k < program.attempts)
       std::fprintf(stderr, "attempt %d of %d: %s\n", k, program.attempts, reason.c_str());
   }
-  std::string text = "the program \"" + program.command.front() + "\" crashed";
+  std::string text = "the program \"" + program.command.front() + "\" gave no result";
   if (program.attempts > 1) text += " in each of " + std::to_string(program.attempts) + " attempts, at last";
   throw ProgramTrouble(ProgramTrouble::Kind::crashed, text + ": " + reason);
 }

@@ -7,6 +7,15 @@
 #include <vector>
 
 namespace drawpoint::studies {
+namespace {
+
+/// Without the name of the exception that stands before it in brackets.
+std::string without_name(const std::string& message) {
+  const auto end = message.find("] ");
+  return message.starts_with('[') && end != std::string::npos ? message.substr(end + 2) : message;
+}
+
+}  // namespace
 
 nlohmann::json strict_json(const std::string& text) {
   using nlohmann::json;
@@ -15,10 +24,14 @@ nlohmann::json strict_json(const std::string& text) {
     if (event == json::parse_event_t::object_start) keys.emplace_back();
     if (event == json::parse_event_t::object_end) keys.pop_back();
     if (event == json::parse_event_t::key && !keys.back().insert(value.get<std::string>()).second)
-      throw std::runtime_error("the key " + value.dump() + " stands twice in one object");
+      throw std::runtime_error("is ambiguous: the key " + value.dump() + " stands twice in one object");
     return true;
   };
-  return json::parse(text, once);
+  try {
+    return json::parse(text, once);
+  } catch (const json::exception& e) {  // NaN and Infinity too, which some languages write as JSON
+    throw std::runtime_error("is no JSON, whose numbers are finite: " + without_name(e.what()));
+  }
 }
 
 }  // namespace drawpoint::studies

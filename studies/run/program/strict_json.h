@@ -9,8 +9,8 @@
 
 namespace drawpoint::studies {
 
-/// Throws nlohmann::json::exception for what is no JSON, std::runtime_error that names a key that stands twice
-/// in one object.
+/// Throws std::runtime_error that says where the text is no JSON, or names a key that stands twice in one object; a
+/// sentence's end, as in "its reply is no JSON: ...".
 nlohmann::json strict_json(const std::string& text);
 
 }  // namespace drawpoint::studies

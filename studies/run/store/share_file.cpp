@@ -84,7 +84,7 @@ std::string bytes_to_share(const FileToShare& file) {
 }
 
 void put_file(SQLite::Database& database, const FileToShare& file) {
-  const std::string bytes = bytes_to_share(file);
+  const std::string bytes = file.text.empty() ? bytes_to_share(file) : file.text;
   struct stat status = {};
   ::stat(file.from.c_str(), &status);
   SQLite::Statement row(database, "INSERT INTO sqlar VALUES (?, ?, ?, ?, ?)");
@@ -143,21 +143,31 @@ void write_unpacked(const fs::path& place, const std::string& bytes) {
   doe::write_file(place, bytes);
 }
 
-/// One file, if it may lie there and is what was shared.
-void unpack_one(const fs::path& file, const fs::path& into, SQLite::Statement& row) {
-  const std::string name = row.getColumn(0).getString(), sum = row.getColumn(3).getString();
-  const std::string shown = "\"" + plain_text(name, 200) + "\"";
-  if (!share_name_is_allowed(name))
-    refuse_share(file, "holds " + shown + ", which no folder of a study does; nothing was unpacked");
+constexpr const char* shared_rows =
+    "SELECT s.name, s.sz, s.data, coalesce(f.checksum, '') FROM sqlar s "
+    "LEFT JOIN drawpoint_files f ON f.name = s.name ";
+
+/// What was shared, of one of these rows.
+std::string bytes_of(const fs::path& file, SQLite::Statement& row) {
+  const std::string shown = "\"" + plain_text(row.getColumn(0).getString(), 200) + "\"";
   const SQLite::Column data = row.getColumn(2);
   const std::string bytes(static_cast<const char*>(data.getBlob()),
                           static_cast<std::size_t>(data.getBytes()));
   const bool packed = row.getColumn(1).getInt64() != static_cast<std::int64_t>(bytes.size());
-  if (packed || doe::detail::checksum(bytes) != sum)
+  if (packed || doe::detail::checksum(bytes) != row.getColumn(3).getString())
     refuse_share(file, "is damaged: " + shown +
                            " does not fit its checksum; nothing was unpacked; copy the "
                            "file again from where it was made");
-  write_unpacked(into / name, bytes);
+  return bytes;
+}
+
+/// One file, if it may lie there.
+void unpack_one(const fs::path& file, const fs::path& into, SQLite::Statement& row) {
+  const std::string name = row.getColumn(0).getString();
+  if (!share_name_is_allowed(name))
+    refuse_share(file, "holds \"" + plain_text(name, 200) +
+                           "\", which no folder of a study does; nothing was unpacked");
+  write_unpacked(into / name, bytes_of(file, row));
 }
 
 }  // namespace
@@ -165,7 +175,7 @@ void unpack_one(const fs::path& file, const fs::path& into, SQLite::Statement& r
 bool share_name_is_allowed(const std::string& name) {
   // No part of a name is ".", "..", empty or hidden.
   static const std::regex allowed(
-      R"(study\.db|report\.html|shared\.checksums|replay_[0-9]+(_cycle_[0-9]+)?\.html)"
+      R"(study\.db|study\.json|report\.html|shared\.checksums|replay_[0-9]+(_cycle_[0-9]+)?\.html)"
       R"(|logs/[A-Za-z0-9_][A-Za-z0-9_.-]*|shared(/[A-Za-z0-9_][A-Za-z0-9_. +-]*)+)");
   return name.size() < 1000 && std::regex_match(name, allowed);
 }
@@ -212,6 +222,15 @@ std::map<std::string, std::string> share_facts(const fs::path& file) {
   });
 }
 
+std::string shared_definition(const fs::path& file) {
+  share_facts(file);
+  return of_share(file, [&] {
+    SQLite::Database database = opened_share(file);
+    SQLite::Statement rows(database, shared_rows + std::string("WHERE s.name = 'study.json'"));
+    return rows.executeStep() ? bytes_of(file, rows) : std::string();
+  });
+}
+
 int unpack_share(const fs::path& file, const fs::path& into) {
   const std::string wanted = share_facts(file)["files"];
   return of_share(file, [&] {
@@ -221,9 +240,7 @@ int unpack_share(const fs::path& file, const fs::path& into) {
     if (needed + least_free_space > free_space(into))
       refuse_share(file, "needs " + std::to_string(needed) + " bytes, and the disk of " + into.string() +
                              " has " + std::to_string(free_space(into)) + "; free some space");
-    SQLite::Statement rows(database,
-                           "SELECT s.name, s.sz, s.data, coalesce(f.checksum, '') FROM sqlar s "
-                           "LEFT JOIN drawpoint_files f ON f.name = s.name ORDER BY s.name");
+    SQLite::Statement rows(database, shared_rows + std::string("ORDER BY s.name"));
     int count = 0;
     for (; rows.executeStep(); ++count) unpack_one(file, into, rows);
     if (std::to_string(count) != wanted)

@@ -22,13 +22,17 @@ namespace drawpoint::studies {
 struct FileToShare {
   std::string name;  ///< in the folder, with "/"
   std::filesystem::path from;
+  std::string text = {};  ///< of a file that is nowhere else; empty: what `from` holds
 };
+
+/// What Simulator::definition is called there.
+inline constexpr const char* definition_name = "study.json";
 
 /// The most bytes of one file, which SQLite bounds: 1e9.
 inline constexpr std::uintmax_t largest_shared_file = 1'000'000'000;
 
-/// Whether a file of this name is unpacked: study.db, report.html, shared.checksums, replay pages, and files in
-/// logs and in shared.
+/// Whether a file of this name is unpacked: study.db, study.json, report.html, shared.checksums, replay pages, and
+/// files in logs and in shared.
 bool share_name_is_allowed(const std::string& name);
 
 /// What there is in the folder to be shared, in order of name; links and what is no file are left out.
@@ -40,6 +44,9 @@ void write_share(const std::filesystem::path& file, const std::vector<FileToShar
 
 /// The facts of such a file, of which "version" is one that this program reads.
 std::map<std::string, std::string> share_facts(const std::filesystem::path& file);
+
+/// The text of its study.json; empty where there is none.
+std::string shared_definition(const std::filesystem::path& file);
 
 /// Into an empty folder that nobody else sees yet. Returns how many files there are.
 int unpack_share(const std::filesystem::path& file, const std::filesystem::path& into);

@@ -53,12 +53,6 @@ std::string simulated_text(const ReportInput& input, const Recommendation& r) {
          std::to_string(last.run) + " gave " + values_text(input, last.outcome.values());
 }
 
-std::string what_to_do(const ReportInput& input, const Recommendation& r) {
-  return "Take " + point_text(input.problem, r.x) + ": the models expect " +
-         values_text(input, predicted_means(input, r.x.transpose()).row(0).transpose()) + " there, " +
-         simulated_text(input, r) + ".";
-}
-
 std::string with_sign(double value) {
   return (value > 0 ? "+" : value < 0 ? "\u2212" : "") + number(std::abs(value));
 }
@@ -82,7 +76,7 @@ bool is_better(const ReportInput& input, const Gain& gain) {
   return doe::sign_of(input.problem.responses[gain.response].goal) * gain.difference() < 0;
 }
 
-/// Names the responses that are better with 95 %, worse with 95 %, and not told apart.
+/// Responses that are better than the reference with 95 %, worse with 95 %, and not told apart from it.
 struct Judged {
   std::vector<std::string> better, worse, open;
 };
@@ -97,6 +91,17 @@ Judged judged(const ReportInput& input, const Recommendation& r) {
       (is_better(input, gain) ? names.better : names.worse).push_back(name);
   }
   return names;
+}
+
+/// What is better than the reference in no response is favoured, not recommended: noise alone has a best place, too.
+std::string what_to_do(const ReportInput& input, const Recommendation& r) {
+  const std::string point = point_text(input.problem, r.x),
+                    values = values_text(input, predicted_means(input, r.x.transpose()).row(0).transpose()),
+                    simulated = simulated_text(input, r);
+  if (judged(input, r).better.empty() && !is_same_place(input.problem, r.x, r.reference.x))
+    return "No strategy is told to be better than " + r.reference.name + "; the models favour " + point +
+           ", where they expect " + values + ", " + simulated + ".";
+  return "Take " + point + ": the models expect " + values + " there, " + simulated + ".";
 }
 
 /// What one run there may give.
@@ -159,7 +164,7 @@ std::vector<std::string> nothing_yet(const ReportInput& input) {
   const std::size_t runs = input.training.rows.size() + input.validation.rows.size();
   const auto failed = static_cast<std::size_t>(input.training.failed() + input.validation.failed());
   if (objectives(asked).empty()) return {begin + "the study names no response to minimize or maximize."};
-  if (runs == 0) return {begin + "no run has ended yet."};
+  if (runs == 0) return {begin + "no run that counts has ended yet."};
   if (failed == runs)
     return {begin + "all " + counted(runs, "run") + " failed, for example because " + main_reason(input) +
             "."};

@@ -85,6 +85,7 @@ void check(const ConvexPolyhedron& a, const ConvexPolyhedron& b, const Manifold*
   }
 }
 
+// 400 000 pairs: a fault in one of 130 000 is seen in 95 of 100 samples.
 // FCL is slow: fewer pairs, of the same kinds. `refused`: bounds of the share of FCL's answers that are wrong; its
 // libccd solver decides nearly every pair, GST_INDEP about half of them.
 struct Sample {
@@ -98,7 +99,7 @@ class ContactFinderTruth : public testing::TestWithParam<Sample> {};
 }  // namespace
 
 INSTANTIATE_TEST_SUITE_P(Narrow, ContactFinderTruth,
-                         testing::Values(Sample{engine::NarrowMethod::separating_axes, 2000, 0, 0},
+                         testing::Values(Sample{engine::NarrowMethod::separating_axes, 800, 0, 0},
                                          Sample{engine::NarrowMethod::fcl_libccd, 80, 0, 1e-3},
                                          Sample{engine::NarrowMethod::fcl_indep, 40, 0.2, 0.6}),
                          [](const auto& info) { return std::string(to_string(info.param.narrow)); });
