@@ -5,6 +5,7 @@
 #include <cmath>
 #include <drawpoint/engine/geometry/mass_properties.hpp>
 #include <numbers>
+#include <random>
 
 using drawpoint::engine::box;
 using drawpoint::engine::ConvexPolyhedron;
@@ -66,4 +67,29 @@ TEST(MassProperties, MoveWithTheShape) {
 TEST(MassProperties, RefuseADensityThatIsNone) {
   EXPECT_THROW(mass_properties(box({1, 1, 1}), 0), std::invalid_argument);
   EXPECT_THROW(mass_properties(box({1, 1, 1}), std::nan("")), std::invalid_argument);
+}
+
+// Of hulls of twenty random points: axes by rising moment, right-handed, the largest component of the first two
+// positive, and no products of inertia, but for the round-off of an eigenvalue problem, some 1e-15 of the moments.
+TEST(MassProperties, PrincipalAxesAreThoseOfTheText) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> coordinate(-1, 1);
+  for (int trial = 0; trial < 100; ++trial) {
+    std::vector<Vector3d> points(20);
+    for (Vector3d& p : points) p = {coordinate(random), 0.6 * coordinate(random), 0.3 * coordinate(random)};
+    const auto m = mass_properties(ConvexPolyhedron::hull_of(points), 2500);
+    const Eigen::Isometry3d frame = drawpoint::engine::principal_frame(m);
+    const Matrix3d R = frame.linear(), along = R.transpose() * m.inertia * R;
+    EXPECT_EQ(frame.translation(), m.centre);
+    EXPECT_LT((along - Matrix3d(along.diagonal().asDiagonal())).norm(), 1e-14 * along.norm());
+    EXPECT_LE(along(0, 0), along(1, 1));
+    EXPECT_LE(along(1, 1), along(2, 2));
+    EXPECT_NEAR(R.determinant(), 1, 1e-14);
+    for (int k : {0, 1}) {
+      const Vector3d axis = R.col(k);
+      Eigen::Index largest;
+      axis.cwiseAbs().maxCoeff(&largest);
+      EXPECT_GT(axis[largest], 0) << "trial " << trial << ", axis " << k;
+    }
+  }
 }
