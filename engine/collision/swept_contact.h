@@ -39,8 +39,8 @@ class SweptContact {
 };
 
 /// Whether a point of the pair's contact meets the face that gave the normal, when b goes against a by
-/// `shift` [m] in a step: then the contact is where it will be.
+/// `shift` [m] in a step, however they turn: then the contact is where it will be.
 bool meets_face(const Manifold& m, const Placement& a, const Placement& b, const ConvexContact& contact,
-                int point, const Eigen::Vector3d& shift);
+                int point, const Eigen::Vector3d& shift, const Turning& turning);
 
 }  // namespace drawpoint::engine::detail

@@ -202,6 +202,10 @@ TEST(StandardErrors, AreTheScatterOfTheCycles) {
   lose(log, {400, 500, 600, 700});
   EXPECT_NEAR(production_standard_error(log), 50, 1e-12);
   EXPECT_NEAR(rock_spill_standard_error(log), 50 / 1e4, 1e-16);
+  log.cycles.pop_back();  // of 500 and 600 the mean of three has 100²/2 · 1/2 · 2/3
+  EXPECT_NEAR(production_standard_error(log), 100 / std::sqrt(6.0), 1e-12);
+  log.cycles.pop_back();  // and two are all that there is
+  EXPECT_NEAR(production_standard_error(log), 50, 1e-12);
 
   LoadingLog damaged = log_of_two_torques();
   EXPECT_NEAR(joint_damage_standard_error(damaged, unfiltered()), 1.0, 1e-12);

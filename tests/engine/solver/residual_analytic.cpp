@@ -121,6 +121,19 @@ TEST(Residual, MeasuresATurnOfFriction) {
   }
 }
 
+// A contact that pulls has no cone: whatever friction it has is wrong, μ λ of the load λ to which the map leads back.
+TEST(Residual, LeavesNoFrictionToAContactThatPulls) {
+  for (const double pull : {0.1, 2.0}) {
+    ContactProblem problem = landing();
+    reference(problem, 1, 2);
+    change_impulse(problem, {0, 0, -(1 + pull) * problem.points[0].impulse.z()});
+    ASSERT_LT(problem.points[0].impulse.z(), 0);
+    const Residual r = residual(problem, {}, 1);
+    EXPECT_NEAR(r.cone, friction, 1e-12);
+    EXPECT_NEAR(r.complementarity, 1 + pull, 1e-12);
+  }
+}
+
 // A spinning moment short of its limit by a share ε: ε Λ a over the arm a, relative to Λ.
 TEST(Residual, MeasuresAnErrorOfTheMoment) {
   constexpr double error = 0.03;
