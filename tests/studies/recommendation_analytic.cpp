@@ -277,6 +277,24 @@ TEST(Recommendation, NeedsModelsFrontAndMarksAlone) {
   EXPECT_EQ(recommended_row({in.problem, {}, in.front, in.marks, in.confirmations, in.success}), -1);
 }
 
+// A turn that lies beyond the haul that the runs count is told, one before it is past.
+TEST(Recommendation, SaysFromWhichHaulOnAnotherGivesMore) {
+  ReportInput in = with_recommendation(known_study(0));
+  const auto said = [&](double haul, double upper) {
+    HaulChoice choice{.haul = 40, .longest = 600};
+    choice.strategies = {{.name = "recommended", .x = in.recommended->x},
+                         {.name = "full", .x = in.recommended->x}};
+    choice.turns = {{.haul = haul, .better = 1, .worse = 0, .lower = 80, .upper = upper}};
+    in.hauls = choice;
+    return answer_sentences(in).back();
+  };
+  EXPECT_EQ(said(100, 150),
+            "Counted is a haul of 40.0 s: from 100 s on (80.0 to 150 s with 95 %) \u201cfull\u201d gives "
+            "more production.");
+  EXPECT_TRUE(has(said(100, 700), "(80.0 to more than 600 s with 95 %)"));
+  for (const double haul : {20.0, 40.0}) EXPECT_TRUE(has(said(haul, 150), "How sure: ")) << haul;
+}
+
 TEST(Hauls, TurnWhereTheRatesAreEqual) {
   EXPECT_NEAR(turning_haul(1000, 10, 2000, 30, 600), 10, 1e-12);  // 1000 / (10 + h) = 2000 / (30 + h)
   EXPECT_TRUE(std::isnan(turning_haul(1000, 10, 2000, 30, 9)));
