@@ -104,8 +104,8 @@ struct FitOptions {
   /// few runs that cannot tell noise from none are taken to have some, or error bars are too narrow. 0 for a
   /// simulator that has none: 0 to 5 % less error in the mean (docs/measurements/kriging.md).
   double nugget_power = 0.5;
-  /// Whether runs without repeats may be exact (Noise::nugget). False where the simulator is known to have noise, of
-  /// whatever size.
+  /// Whether runs may be exact (Noise::nugget). False where the simulator is known to have noise, of whatever size:
+  /// repeats that agree then do so by chance.
   bool may_be_exact = true;
   /// Whether variances hold what the estimates of θ, the exponents and λ leave unknown
   /// (detail/parameter_uncertainty.hpp).

@@ -11,6 +11,8 @@
 /// Source: Ankenman, Nelson, Staum 2010, Operations Research 58(2), "Stochastic Kriging for Simulation Metamodeling".
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <drawpoint/doe/evaluations.hpp>
 #include <drawpoint/kriging/detail/sites.hpp>
 #include <drawpoint/kriging/moderated_noise.hpp>
 #include <stdexcept>
@@ -18,6 +20,25 @@
 #include <vector>
 
 namespace drawpoint::kriging {
+
+/// What runs at equal points say of a simulator. A response that agrees by chance, such as a count, is not exact beside
+/// one that differs.
+enum class RepeatsSay {
+  nothing,  ///< no point was run twice
+  exact,    ///< all agree in every response
+  noisy     ///< two differ in one
+};
+
+/// Of the runs that succeeded.
+inline RepeatsSay repeats_say(const doe::Evaluations& runs) {
+  const Eigen::MatrixXd X = runs.X();
+  const auto sites = detail::sites_of(X);
+  if (static_cast<Eigen::Index>(sites.size()) == X.rows()) return RepeatsSay::nothing;
+  const bool agree = std::all_of(
+      runs.problem.responses.begin(), runs.problem.responses.end(),
+      [&](const doe::Response& response) { return detail::repeats_agree(sites, runs.y(response.name)); });
+  return agree ? RepeatsSay::exact : RepeatsSay::noisy;
+}
 
 enum class ReplicateNoise { pooled, own };
 

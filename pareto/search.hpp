@@ -118,7 +118,7 @@ struct Front {
   int evaluations = 0, failed = 0, generations = 0;
   StopReason stopped_by = StopReason::generations;
   SearchStatus status = SearchStatus::completed;
-  std::string message;  ///< empty when completed
+  std::string message;  ///< empty when completed and at most 2 % of the evaluations failed
 };
 
 namespace detail {

@@ -2,19 +2,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-/// Runs that repeat others exactly, in a model of these: they change neither its parameters nor its variances.
+/// Runs that repeat others, in a model of these: its parameters stay. Of exact runs its variances stay too; noisy ones
+/// that agree by chance, as counts do, would look like no noise at all.
 
 #include <Eigen/Core>
 #include <algorithm>
 #include <drawpoint/kriging/detail/cholesky.hpp>
 #include <drawpoint/kriging/detail/model_state.hpp>
 #include <drawpoint/kriging/model.hpp>
+#include <string>
 #include <utility>
 
 namespace drawpoint::kriging::detail {
 
-/// `model` is of the distinct rows of X alone; the result has all rows as runs. X: n x d, natural units; y: n.
-inline Model with_exact_repeats(const Model& model, const Eigen::MatrixXd& X, const Eigen::VectorXd& y) {
+/// `model` is of the distinct rows of X alone; the result has all rows as runs, and its message says so. X: n x d,
+/// natural units; y: n.
+inline Model with_repeats(const Model& model, const Eigen::MatrixXd& X, const Eigen::VectorXd& y,
+                          const std::string& said) {
   ModelState s = model.state();
   const double process_variance = s.process_variance, log_likelihood = s.log_likelihood;
   s.X = s.input.apply(X);
@@ -32,7 +36,7 @@ inline Model with_exact_repeats(const Model& model, const Eigen::MatrixXd& X, co
   estimate(s);
   s.process_variance = process_variance;
   s.log_likelihood = log_likelihood;
-  s.report.message += "; runs at equal points agree, so the simulator is taken to be exact";
+  s.report.message += "; runs at equal points agree, " + said;
   return Model(std::move(s));
 }
 

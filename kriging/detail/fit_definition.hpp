@@ -67,14 +67,14 @@ inline Model fit_either(const Eigen::MatrixXd& X, const TrainingData& data, cons
                                          : noisy;
 }
 
-/// Fits the first run of each site, as exact runs; the others join that model.
-inline Model fit_exact_repeats(const Eigen::MatrixXd& X, const Eigen::VectorXd& y,
-                               const std::vector<std::vector<Eigen::Index>>& sites, const FitOptions& given) {
-  const FitOptions options = with_exact_runs(given);
+/// Fits the first run of each site; the others join that model.
+inline Model fit_once_each(const Eigen::MatrixXd& X, const Eigen::VectorXd& y,
+                           const std::vector<std::vector<Eigen::Index>>& sites, const FitOptions& options,
+                           const std::string& said) {
   const std::vector<Eigen::Index> once = first_runs(sites);
   const Eigen::MatrixXd distinct = rows_of(X, once);
   const TrainingData data = prepare(distinct, entries_of(y, once), options);
-  return with_exact_repeats(fit_to(distinct, data, options), X, y);
+  return with_repeats(fit_to(distinct, data, options), X, y, said);
 }
 
 }  // namespace detail
@@ -86,10 +86,14 @@ DRAWPOINT_KRIGING_INLINE Model fit(const Eigen::MatrixXd& X, const Eigen::Vector
   if (data.y.size() == 0) return detail::constant_model(data, options);
   if (given.noise == Noise::none || given.noise == Noise::nugget) {
     const auto sites = detail::sites_of(X);
-    if (detail::repeats_agree(sites, y)) {
+    const bool agree = detail::repeats_agree(sites, y);
+    if (agree && given.noise == Noise::nugget && !given.may_be_exact)
+      return detail::fit_once_each(X, y, sites, options, "which is chance beside noise");
+    if (agree) {
       if (const auto trend = detail::exact_trend(data, options))
         return *trend;  // repeats count as runs for that
-      return detail::fit_exact_repeats(X, y, sites, given);
+      return detail::fit_once_each(X, y, sites, detail::with_exact_runs(given),
+                                   "so the simulator is taken to be exact");
     }
     if (given.noise == Noise::nugget && static_cast<Eigen::Index>(sites.size()) == X.rows())
       return detail::fit_either(X, data, options);

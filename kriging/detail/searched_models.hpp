@@ -20,9 +20,9 @@
 #include <drawpoint/doe/evaluations.hpp>
 #include <drawpoint/kriging/acquisition_hypervolume.hpp>
 #include <drawpoint/kriging/append.hpp>
-#include <drawpoint/kriging/detail/sites.hpp>
 #include <drawpoint/kriging/fit.hpp>
 #include <drawpoint/kriging/moderated_noise.hpp>
+#include <drawpoint/kriging/replicates.hpp>
 #include <drawpoint/kriging/success_model.hpp>
 #include <optional>
 #include <utility>
@@ -32,17 +32,7 @@ namespace drawpoint::kriging::detail {
 
 /// Whether equal points give equal responses: the problem says so, or repeats, of which none differ.
 inline bool runs_are_exact(const doe::Evaluations& runs) {
-  const Eigen::MatrixXd X = runs.X();
-  bool repeated = false;
-  for (const doe::Response& r : runs.problem.responses) {
-    const Eigen::VectorXd y = runs.y(r.name);
-    for (const std::vector<Eigen::Index>& site : sites_of(X))
-      for (const Eigen::Index i : site) {
-        if (y[i] != y[site.front()]) return false;
-        repeated = repeated || i != site.front();
-      }
-  }
-  return repeated || runs.problem.deterministic;
+  return runs.problem.deterministic || repeats_say(runs) == RepeatsSay::exact;
 }
 
 inline const doe::Response& response_of(const doe::Problem& problem, std::string_view name) {
@@ -56,7 +46,7 @@ inline FitOptions search_fit_options(const doe::Evaluations& runs, std::string_v
   options.lower = doe::lower_bounds(runs.problem);
   options.upper = doe::upper_bounds(runs.problem);
   options.levels = doe::level_counts(runs.problem);
-  options.may_be_exact = !doe::tells_noise(runs.problem);
+  options.may_be_exact = !doe::tells_noise(runs.problem) && repeats_say(runs) != RepeatsSay::noisy;
   const Eigen::VectorXd told = runs.noise_variance(name);
   if (exact) {
     options.noise = Noise::none;

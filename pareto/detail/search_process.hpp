@@ -190,11 +190,17 @@ inline std::vector<int> without_copies(const std::vector<int>& order, const Eige
   return kept;
 }
 
-/// Without a feasible point: why there is none.
+/// Without a feasible point: why there is none. With one: what may be missing.
 inline void SearchProcess::explain(Front& front) const {
-  if (front.X.rows() > 0) return;
+  constexpr double few = 0.02;  // of the evaluations
   const std::string all = std::to_string(evaluations_);
-  if (evaluations_ == 0) {
+  if (front.X.rows() > 0) {
+    if (failed_ > few * evaluations_)
+      front.message = std::to_string(failed_) + " of " + all +
+                      " evaluations failed, and the front lacks what lies there; "
+                      "the first: " +
+                      first_reason_;
+  } else if (evaluations_ == 0) {
     front.status = SearchStatus::nothing_evaluated;
     front.message = "the search was stopped before its first population was evaluated";
   } else if (failed_ == evaluations_) {

@@ -375,6 +375,7 @@ Study study_of(const json& content, const fs::path& file, const std::string& exp
     in.fail("it or its program changed while the study ran; give the command again, with --retry-failed");
   study.simulator.name = command.simulator;
   study.simulator.definition = without_command(content);
+  study.simulator.asks_for_chance = !elsewhere && !in.has("deterministic");
   study.simulator.leading_words = {"@" + checksum + ":" + fs::absolute(file).string()};
   if (elsewhere) return study;
   const ExternalProgram program{.command = command.words,

@@ -95,9 +95,6 @@ struct RankedRun {
   std::filesystem::path log;
 };
 
-/// The last but a tenth of the runs from one end, by production; of three runs or fewer the end itself.
-std::size_t tenth_of(std::size_t runs) { return runs < 4 ? 0 : std::max<std::size_t>(1, runs / 10); }
-
 nlohmann::json production_panel(const std::vector<RankedRun>& runs, std::size_t rank,
                                 const OptionValues& options, bool good) {
   const LoadingLog log = engine::loading::read_log(runs[rank].log);
@@ -113,12 +110,15 @@ nlohmann::json production_panel(const std::vector<RankedRun>& runs, std::size_t 
   return scene_panel(log, cycle, who, good ? "A good cycle" : "A bad cycle", damage_options(options));
 }
 
+constexpr std::size_t fewest_ranked = 10;  // of fewer runs none is good or bad
+
 /// Panels of a cycle of a good run and of one of a bad run; none where production does not differ.
 nlohmann::json production_panels(std::vector<RankedRun> runs, const OptionValues& options) {
   std::stable_sort(runs.begin(), runs.end(),
                    [](const RankedRun& a, const RankedRun& b) { return a.production > b.production; });
-  if (runs.size() < 2 || runs.front().production == runs.back().production) return nlohmann::json::array();
-  const std::size_t rank = tenth_of(runs.size());
+  if (runs.size() < fewest_ranked || runs.front().production == runs.back().production)
+    return nlohmann::json::array();
+  const std::size_t rank = runs.size() / 10;  // the last but a tenth from either end
   return {production_panel(runs, rank, options, true),
           production_panel(runs, runs.size() - 1 - rank, options, false)};
 }

@@ -17,6 +17,7 @@ namespace drawpoint::studies {
 namespace {
 
 constexpr int draws = 2000;
+constexpr std::size_t fewest_runs = 10;  // that models of loads and times want
 
 doe::Problem problem_of_cycles(const ModelledStudy& study) {
   return {.variables = study.problem.variables,
@@ -172,7 +173,7 @@ double error_on(const doe::Evaluations& validation, const CycleModels& models,
 std::optional<HaulChoice> choice_of_haul(const ModelledStudy& study, const std::string& rate, double haul,
                                          const std::vector<WorkOfRun>& work) {
   const int response = doe::response_index(study.problem, rate);
-  if (response < 0 || study.front.X.rows() == 0 || work.empty()) return {};
+  if (response < 0 || study.front.X.rows() == 0 || work.size() < fewest_runs) return {};
   const Tables tables{.training = cycles_of(study, study.training, work),
                       .validation = cycles_of(study, study.validation, work)};
   CycleModels models{.problem = tables.training.problem, .of = {}};

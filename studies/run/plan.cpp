@@ -133,6 +133,19 @@ std::vector<Run> runs_to_add(const Identity& identity, const std::vector<Run>& e
   return {all.begin() + static_cast<std::ptrdiff_t>(existing.size()), all.end()};
 }
 
+std::vector<Run> run_that_asks_for_chance(const Identity& identity, const std::vector<Run>& planned) {
+  constexpr int fewest = 20;
+  if (identity.replicates > 1 || identity.problem.deterministic || doe::tells_noise(identity.problem) ||
+      count_points(planned, Kind::training) < fewest)
+    return {};
+  Run run = *std::find_if(planned.begin(), planned.end(),
+                          [](const Run& r) { return r.kind == Kind::training && r.point == 1; });
+  run.id = static_cast<std::int64_t>(planned.size()) + 1;
+  run.replicate = 1;
+  run.seed = seed_of(identity, run.kind, run.point, run.replicate);
+  return {run};
+}
+
 int count_points(const std::vector<Run>& runs, Kind kind) {
   std::int64_t last = 0;
   for (const auto& run : runs) {

@@ -235,6 +235,28 @@ TEST_F(ExternalProgram, ThatChangesEndsTheStudy) {
       << "run 1 has ended when the script changed itself";
 }
 
+// Nobody said whether chance is at work: one run more tells, once. Who says so, or has few runs, is not asked.
+TEST_F(ExternalProgram, IsAskedOnceWhetherChanceIsAtWork) {
+  const auto training = [&](const fs::path& folder) {
+    return SQLite::Database((folder / "study.db").string())
+        .execAndGet("SELECT count(*) FROM runs WHERE kind = 'training'")
+        .getInt();
+  };
+  ASSERT_EQ(run(study(half) + " --runs 20 --validation 1" + out()).code, 0);
+  EXPECT_EQ(training(dir()), 21);
+  EXPECT_EQ(count("point = 1 AND replicate = 1 AND kind = 'training'"), 1);
+  ASSERT_EQ(run(study(half) + " --runs 22 --validation 1" + out()).code, 0);
+  EXPECT_EQ(training(dir()), 23);
+  const fs::path few = place_ / "few", told = place_ / "told";
+  ASSERT_EQ(run(study(half) + " --runs 19 --validation 0 --out " + few.string()).code, 0);
+  EXPECT_EQ(training(few), 19);
+  ASSERT_EQ(
+      run(study(half, R"(, "deterministic": false)") + " --runs 20 --validation 0 --out " + told.string())
+          .code,
+      0);
+  EXPECT_EQ(training(told), 20);
+}
+
 // Who opens what somebody shares has neither study file nor program, and may read all and run nothing.
 TEST_F(ExternalProgram, IsSharedWithItsStudyFile) {
   const std::string ours = study(half, R"(, "version": "2", "files": ["simulate.sh"])");

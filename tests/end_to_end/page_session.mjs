@@ -422,6 +422,22 @@ await step('cycles', one('.cycles select'), async () => {
   return names.join(', ');
 });
 
+await step('a phone, from the beginning', one('#trust'), async () => {
+  const [width, height] = screens.phone;
+  await page.send('Emulation.setDeviceMetricsOverride', {width, height, deviceScaleFactor: 1, mobile: true});
+  await evaluate('(window.before = true) && location.reload()').catch(() => null);
+  await until('!window.before && document.documentElement?.dataset.ready === "true"');
+  await page.settled();
+  const folded = await count('details.folded'),
+    tall = (await evaluate('document.documentElement.scrollHeight')) / height;
+  assert.ok(folded > 3, `${folded} sections are folded`);
+  assert.ok(tall < 16, `the page has ${tall.toFixed(1)} screens`);
+  assert.ok(await inWidth(), 'it is wider than the window');
+  await evaluate(`document.querySelector('nav a[href="#trust"]').click()`);
+  await until(`document.querySelector('#trust > details').open`);
+  return `${folded} sections folded, ${tall.toFixed(1)} screens`;
+});
+
 const {errors} = page,
   requests = page.requests();
 await page.close();

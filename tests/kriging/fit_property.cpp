@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <drawpoint/doe/detail/permutation.hpp>
 #include <drawpoint/kriging/fit.hpp>
+#include <drawpoint/kriging/replicates.hpp>
 #include <drawpoint/tests/kriging/reference_cases.hpp>
 #include <filesystem>
 #include <fstream>
@@ -211,6 +212,30 @@ TEST(Fit, RepeatsThatAgreeChangeNothing) {
     all.y[20] += 0.5;
     EXPECT_GT(fit(all.X, all.y).nugget(), 1e-6);
   }
+}
+
+// A count that is the same in two runs by chance, beside a response that differs: neither is exact.
+TEST(Fit, RepeatsThatAgreeByChanceAreNoiseStill) {
+  const int n = 24;
+  doe::Evaluations runs{.problem = {.variables = {{"a", "1", 0.0, 1.0}, {"b", "1", 0.0, 1.0}},
+                                    .responses = {{"y", "1"}, {"lost", "1"}}},
+                        .rows = {}};
+  const Runs points = hilly(n, 0.0);
+  doe::RandomStream random(5);
+  for (int i = 0; i <= n; ++i) {
+    const VectorXd x = points.X.row(i % n);
+    const double y = points.y[i % n] + 0.1 * random.normal(), lost = std::floor(3 * random.uniform());
+    runs.rows.push_back({i + 1, i / n, 1, x, doe::Outcome(Eigen::Vector2d(y, i % n == 0 ? 1.0 : lost)), 1.0});
+  }
+  EXPECT_EQ(repeats_say(runs), RepeatsSay::noisy);
+  FitOptions options;
+  EXPECT_LT(fit(runs.X(), runs.y("lost"), options).nugget(), 1e-6) << "which knows nothing of the other";
+  options.may_be_exact = false;
+  EXPECT_GT(fit(runs.X(), runs.y("lost"), options).nugget(), 1e-2);
+  runs.rows.back().outcome = runs.rows.front().outcome;
+  EXPECT_EQ(repeats_say(runs), RepeatsSay::exact);
+  runs.rows.back().outcome = doe::Failure{"stuck"};
+  EXPECT_EQ(repeats_say(runs), RepeatsSay::nothing);
 }
 
 TEST(Fit, AnInputWithoutEffectGetsASmallTheta) {

@@ -41,7 +41,7 @@ TEST(StudyCategories, ModelsKnowTheLevels) {
   // The error of 15 runs per tool of a smooth curve is far below a tenth of the 10 that it swings by.
   EXPECT_NEAR(fitted.models[0](Eigen::Vector2d(0.5, 2.0)), 20 + 10 * std::sin(2.0), 1.0);
   for (const kriging::WayToFit& way :
-       ways_to_fit(tables.training.problem, tables.training.problem.responses[0], kriging::Scale::linear))
+       ways_to_fit(tables.training, tables.training.problem.responses[0], kriging::Scale::linear))
     EXPECT_EQ(way.fitter(tables.training.X(), tables.training.y("cost")).model().correlation().levels.size(),
               2U);
 }

@@ -57,30 +57,40 @@ std::string caption(const nlohmann::json& panel) { return panel["caption"]; }
 
 bool begins(const std::string& text, const std::string& part) { return text.rfind(part, 0) == 0; }
 
+// Ten runs: the second best and the last but one are shown.
 TEST(LoadingContrasts, AreTypicalAndTrackedCyclesOfAllRuns) {
   const test::TestFolder place;
-  write_log(place / "run_0007.h5", log_of({{0.5, 4000}, {0.1, 1000}}));
-  write_log(place / "run_0012.h5", log_of({{0.3, 6200}, {0.9, 5000}}));
-  const auto panels = loading_contrasts({place / "run_0007.h5", place / "run_0012.h5"});
+  std::vector<std::filesystem::path> logs = {place / "run_0007.h5", place / "run_0012.h5",
+                                             place / "run_0013.h5", place / "run_0014.h5"};
+  write_log(logs[0], log_of({{0.5, 4000}, {0.1, 1000}}));
+  write_log(logs[1], log_of({{0.3, 6200}, {0.9, 5000}}));
+  write_log(logs[2], log_of({{0.4, 7000}, {0.4, 7000}}));
+  write_log(logs[3], log_of({{0.4, 500}, {0.4, 500}}));
+  for (int run = 21; run <= 26; ++run) {
+    logs.push_back(place / ("run_00" + std::to_string(run) + ".h5"));
+    write_log(logs.back(), log_of({{0.4, 3000}, {0.4, 3000}}));
+  }
+  const auto panels = loading_contrasts(logs);
   ASSERT_EQ(panels.size(), 4u);
   EXPECT_EQ(panels[0]["type"], "scene");
   EXPECT_TRUE(
       begins(caption(panels[0]),
-             "Run 12, cycle 2, of median production in a run of rank 1 of 2: 5.0 t in 10.0 s, 500 kg/s"))
+             "Run 12, cycle 2, of median production in a run of rank 2 of 10: 5.0 t in 10.0 s, 500 kg/s"))
       << caption(panels[0]);
   EXPECT_TRUE(
       begins(caption(panels[1]),
-             "Run 7, cycle 2, of median production in a run of rank 2 of 2: 1.0 t in 10.0 s, 100 kg/s"))
+             "Run 7, cycle 2, of median production in a run of rank 9 of 10: 1.0 t in 10.0 s, 100 kg/s"))
       << caption(panels[1]);
   EXPECT_EQ(panels[1]["frames"].size(), 1u) << "of that cycle alone";
   EXPECT_EQ(panels[2]["type"], "path");
-  EXPECT_TRUE(begins(caption(panels[2]), "Run 7, cycle 2, the best tracked of 4 cycles, its edge 0.10 m off"))
+  EXPECT_TRUE(
+      begins(caption(panels[2]), "Run 7, cycle 2, the best tracked of 20 cycles, its edge 0.10 m off"))
       << caption(panels[2]);
   EXPECT_TRUE(
-      begins(caption(panels[3]), "Run 12, cycle 2, the worst tracked of 4 cycles, its edge 0.90 m off"))
+      begins(caption(panels[3]), "Run 12, cycle 2, the worst tracked of 20 cycles, its edge 0.90 m off"))
       << caption(panels[3]);
   EXPECT_EQ(panels[2]["contour"]["x"], nlohmann::json({-1.0, 0.0, 3.0})) << "from a metre before the plan";
-  const auto hauled = loading_contrasts({place / "run_0007.h5", place / "run_0012.h5"}, {{"haul", "40"}});
+  const auto hauled = loading_contrasts(logs, {{"haul", "40"}});
   EXPECT_NE(caption(hauled[0]).find("100 kg/s with a haul of 40 s"), std::string::npos) << caption(hauled[0]);
 }
 
@@ -123,6 +133,9 @@ TEST(LoadingContrasts, AreNoneOfOneCycleOrOfEqualOnes) {
   EXPECT_TRUE(loading_contrasts({}).empty());
   EXPECT_TRUE(loading_contrasts({place / "run_0001.h5"}).empty());
   EXPECT_TRUE(loading_contrasts({place / "run_0001.h5", place / "run_0001.h5"}).empty());
+  write_log(place / "run_0002.h5", log_of({{0.5, 6000}}));
+  EXPECT_TRUE(loading_contrasts({place / "run_0001.h5", place / "run_0002.h5"}).empty())
+      << "of two runs none is good or bad, nor tracked better";
 }
 
 // A log without plans still has loads.
@@ -130,10 +143,13 @@ TEST(LoadingContrasts, LeaveOutWhatALogLacks) {
   const test::TestFolder place;
   LoadingLog log = log_of({{0.5, 4000}, {0.1, 1000}});
   for (CycleRecord& cycle : log.cycles) cycle.planned_x = cycle.planned_z = {};
-  write_log(place / "run_0003.h5", log);
-  log.cycles[0].loaded_mass = 5000;
-  write_log(place / "run_0004.h5", log);
-  const auto panels = loading_contrasts({place / "run_0003.h5", place / "run_0004.h5"});
+  std::vector<std::filesystem::path> logs;
+  for (int run = 11; run <= 20; ++run) {
+    log.cycles[0].loaded_mass = 100 * run;
+    logs.push_back(place / ("run_00" + std::to_string(run) + ".h5"));
+    write_log(logs.back(), log);
+  }
+  const auto panels = loading_contrasts(logs);
   ASSERT_EQ(panels.size(), 2u);
   EXPECT_EQ(panels[0]["type"], "scene");
 }

@@ -5,6 +5,7 @@
 #include <drawpoint/studies/model/fits/stated_interval.h>
 #include <drawpoint/doe/bounds.hpp>
 #include <drawpoint/kriging/noise_model.hpp>
+#include <drawpoint/kriging/replicates.hpp>
 
 #include <cstdio>
 #include <stdexcept>
@@ -14,10 +15,12 @@ namespace drawpoint::studies {
 namespace {
 
 /// With noise that is estimated, or what the runs tell of theirs together.
-kriging::FitOptions default_fit(const doe::Problem& problem, const kriging::RunNoise& noise = {}) {
+kriging::FitOptions default_fit(const doe::Evaluations& runs, const kriging::RunNoise& noise = {}) {
+  const doe::Problem& problem = runs.problem;
   kriging::FitOptions options;
   if (problem.deterministic) options.noise = kriging::Noise::none;
-  options.may_be_exact = !doe::tells_noise(problem);
+  options.may_be_exact =
+      !doe::tells_noise(problem) && kriging::repeats_say(runs) != kriging::RepeatsSay::noisy;
   if (noise.noise == kriging::Noise::known) {
     options.noise = kriging::Noise::pooled;
     options.noise_variance = noise.variance;
@@ -101,10 +104,10 @@ kriging::RunNoise told_noise(const doe::Evaluations& runs, const doe::Response& 
   return {kriging::Noise::known, variance};
 }
 
-std::vector<StudyWay> ways_to_fit(const doe::Problem& problem, const doe::Response& response,
+std::vector<StudyWay> ways_to_fit(const doe::Evaluations& runs, const doe::Response& response,
                                   kriging::Scale scale, kriging::NoiseSource source) {
   std::vector<StudyWay> ways;
-  for (const kriging::FitOptions& options : kriging::usual_kinds(default_fit(problem)))
+  for (const kriging::FitOptions& options : kriging::usual_kinds(default_fit(runs)))
     ways.push_back(way_to_fit(options, response, scale, source));
   return ways;
 }
@@ -141,13 +144,13 @@ Fitted fit_response(const doe::Evaluations& runs, const doe::Response& response)
   const Eigen::VectorXd y = runs.y(response.name);
   const kriging::ResponseRange range = range_of(response);
   const kriging::RunNoise noise = told_noise(runs, response);
-  const kriging::Scale scale = kriging::choose_scale(X, y, range, default_fit(runs.problem, noise)).scale();
-  const std::vector<StudyWay> kinds = ways_to_fit(runs.problem, response, scale, first_source(noise));
+  const kriging::Scale scale = kriging::choose_scale(X, y, range, default_fit(runs, noise)).scale();
+  const std::vector<StudyWay> kinds = ways_to_fit(runs, response, scale, first_source(noise));
   kriging::FitChoice kind = kriging::choose_fit(X, y, range, {kinds.begin(), kinds.end()}, noise);
   if (noise.noise != kriging::Noise::known) return {kinds[kind.best], std::move(kind.model)};
   std::vector<StudyWay> sources;
   for (const kriging::NoiseSource source : sources_for(noise, scale, response.standard_error_freedom))
-    sources.push_back(ways_to_fit(runs.problem, response, scale, source)[kind.best]);
+    sources.push_back(ways_to_fit(runs, response, scale, source)[kind.best]);
   kriging::FitChoice choice = kriging::choose_refitted(X, y, range, {sources.begin(), sources.end()}, noise);
   return {sources[choice.best], std::move(choice.model)};
 }

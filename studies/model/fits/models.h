@@ -25,9 +25,9 @@ struct StudyWay : kriging::WayToFit {
   kriging::NoiseSource noise_source = kriging::NoiseSource::estimated;
 };
 
-/// The ways to fit a response on this scale that are compared: smooth and less smooth, without and with a
+/// The ways to fit a response of runs on this scale that are compared: smooth and less smooth, without and with a
 /// slope, with noise from this source. The first is the default.
-std::vector<StudyWay> ways_to_fit(const doe::Problem& problem, const doe::Response& response,
+std::vector<StudyWay> ways_to_fit(const doe::Evaluations& runs, const doe::Response& response,
                                   kriging::Scale scale,
                                   kriging::NoiseSource source = kriging::NoiseSource::estimated);
 

@@ -56,7 +56,7 @@ std::vector<std::string> suspects(const Models& fitted, const Tables& tables) {
     const doe::Response& response = problem.responses[j];
     const kriging::TransformedModel& model = fitted.models[j];
     const kriging::RunNoise noise = told_noise(tables.training, response);
-    const auto ways = ways_to_fit(problem, response, model.transform().scale, fitted.noise[j]);
+    const auto ways = ways_to_fit(tables.training, response, model.transform().scale, fitted.noise[j]);
     const auto way =
         std::find_if(ways.begin(), ways.end(), [&](const StudyWay& w) { return w.name == fitted.ways[j]; });
     if (way == ways.end()) continue;

@@ -38,7 +38,7 @@ doe::Criterion disagreement_of_ways(const doe::Evaluations& runs,
     std::vector<doe::Criterion> means;
     const kriging::RunNoise noise = told_noise(runs, response);
     const kriging::Scale scale = models[j].transform().scale;
-    for (const auto& way : ways_to_fit(runs.problem, response, scale, first_source(noise)))
+    for (const auto& way : ways_to_fit(runs, response, scale, first_source(noise)))
       means.push_back([model = way.fitter(runs.X(), y, noise.variance)](
                           const Eigen::MatrixXd& X) -> Eigen::VectorXd { return model.mean(X); });
     scores.emplace_back(doe::disagreement(std::move(means)), range_of(y));

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Drawpoint contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <drawpoint/studies/run/interrupt.h>
+#include <drawpoint/studies/run/program/printed_text.h>
 #include <drawpoint/studies/run/program/program_reply.h>
 #include <drawpoint/studies/run/program/program_trouble.h>
 #include <signal.h>
@@ -191,7 +192,7 @@ doe::Outcome outcome_of_attempts(const doe::Problem& problem, const ExternalProg
     reason = std::get<Crash>(result).reason;
     // Not after the last one: the last words are the program's.
     if (k < program.attempts)
-      std::fprintf(stderr, "attempt %d of %d: %s\n", k, program.attempts, reason.c_str());
+      std::fprintf(stderr, "%s%d of %d: %s\n", attempt_begins, k, program.attempts, reason.c_str());
   }
   std::string text = "the program \"" + program.command.front() + "\" gave no result";
   if (program.attempts > 1) text += " in each of " + std::to_string(program.attempts) + " attempts, at last";

@@ -15,6 +15,9 @@ std::string printed_last(const std::filesystem::path& printed);
 /// A reason without the name of the file, which differs from run to run: equal failures have equal ones.
 std::string without_log_name(const std::string& reason);
 
+/// How a line begins that tells of an attempt and is not the program's.
+inline constexpr const char* attempt_begins = "drawpoint: attempt ";
+
 /// How printed_last begins, behind a reason.
 inline constexpr const char* printed_last_begins = "; it printed last ";
 

@@ -65,11 +65,27 @@ std::string gain_text(const doe::Response& r, const Gain& gain) {
   return text + " (" + with_sign(gain.lower) + " to " + with_sign(gain.upper) + ")";
 }
 
+/// Where the strategy surely gives less than another from some haul on, which the runs do not count.
+std::string haul_text(const ReportInput& input) {
+  if (!input.hauls) return "";
+  const HaulChoice& hauls = *input.hauls;
+  for (const HaulTurn& turn : hauls.turns) {
+    if (hauls.strategies[turn.worse].name != "recommended" || turn.haul <= hauls.haul ||
+        !(turn.upper <= hauls.longest))
+      continue;
+    return "; from a haul of " + number(turn.haul) + " s on (" + range_text(turn.lower, turn.upper) +
+           "), where " + number(hauls.haul) + " s are counted, \u201c" + hauls.strategies[turn.better].name +
+           "\u201d gives more " + pretty(input.problem.responses[hauls.response].name);
+  }
+  return "";
+}
+
 std::string what_it_gains(const ReportInput& input, const Recommendation& r) {
   if (is_same_place(input.problem, r.x, r.reference.x)) return "That is " + r.reference.name + " itself.";
   std::vector<std::string> parts;
   for (const Gain& gain : r.gains) parts.push_back(gain_text(input.problem.responses[gain.response], gain));
-  return "Against " + r.reference.name + " the models expect " + listed(parts) + ", in brackets with 95 %.";
+  return "Against " + r.reference.name + " the models expect " + listed(parts) + haul_text(input) +
+         "; in brackets with 95 %.";
 }
 
 bool is_better(const ReportInput& input, const Gain& gain) {
@@ -129,21 +145,6 @@ std::string how_sure(const ReportInput& input, const Recommendation& r) {
       input.validations.empty() ? "by models that no validation run has checked" : "by the models";
   return "How sure: " + by + ", the mean of many runs is with 95 % " + listed(said) + one_run_text(input, r) +
          ".";
-}
-
-/// Where the strategy gives less than another from some haul on, which the runs do not count.
-std::string haul_text(const ReportInput& input) {
-  if (!input.hauls) return "";
-  const HaulChoice& hauls = *input.hauls;
-  for (const HaulTurn& turn : hauls.turns) {
-    if (hauls.strategies[turn.worse].name != "recommended" || turn.haul <= hauls.haul) continue;
-    const std::string upper =
-        turn.upper > hauls.longest ? "more than " + number(hauls.longest) : number(turn.upper);
-    return "Counted is a haul of " + number(hauls.haul) + " s: from " + number(turn.haul) + " s on (" +
-           number(turn.lower) + " to " + upper + " s with 95 %) \u201c" + hauls.strategies[turn.better].name +
-           "\u201d gives more " + pretty(input.problem.responses[hauls.response].name) + ".";
-  }
-  return "";
 }
 
 /// The most frequent reason of the runs that failed.
@@ -212,10 +213,7 @@ std::string confirming_point(const ReportInput& input, const Eigen::VectorXd& x)
 std::vector<std::string> answer_sentences(const ReportInput& input) {
   if (!input.recommended) return nothing_yet(input);
   const Recommendation& recommended = *input.recommended;
-  std::vector<std::string> sentences = {what_to_do(input, recommended), what_it_gains(input, recommended),
-                                        how_sure(input, recommended)};
-  if (std::string haul = haul_text(input); !haul.empty()) sentences.push_back(std::move(haul));
-  return sentences;
+  return {what_to_do(input, recommended), what_it_gains(input, recommended), how_sure(input, recommended)};
 }
 
 namespace detail {

@@ -91,6 +91,8 @@ Steps steps_for_front(const ReportInput& input) {
         {"Predictions and simulations of the front do not agree yet: go on confirming, the models learn from "
          "it.",
          confirm}};
+  if (input.recommended && input.recommended->simulated.empty())
+    return {{"Have the recommended strategy simulated.", confirming_point(input, input.recommended->x)}};
   return {};
 }
 
@@ -113,6 +115,7 @@ std::vector<NextStep> next_steps(const ReportInput& input) {
         {"Choose: the front has the points that matter, with what simulation gave; repeat the one that "
          "you would take with other seeds before deciding.",
          command_text(input, "front")});
+  std::stable_partition(open.begin(), open.end(), [](const NextStep& step) { return !step.command.empty(); });
   Steps all = steps_for_failures(input);
   append(all, open);
   if (all.size() > most_steps) all.resize(most_steps);

@@ -21,6 +21,8 @@ export const intervalColumn = (title, of) => ({
   ],
 });
 
+const many = 12; // columns, of which a table is as wide as a page
+
 const meaning =
   'Non-dominated: how likely the mean of many runs at the point keeps every limit while no other point of the ' +
   'front is at least as good in all objectives and better in one, as sure as the surrogates are of these ' +
@@ -78,7 +80,7 @@ export function frontTable(data, objectives, shared) {
   update();
   return el(
     'div',
-    {class: 'block dense'},
+    {class: columns.length > many ? 'block dense denser' : 'block dense'},
     el('h3', {}, title),
     detail,
     made.node,

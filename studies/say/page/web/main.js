@@ -7,6 +7,7 @@ import {choose} from './choice.js';
 import {collect} from './designs.js';
 import {header, navigation, facts} from './summary.js';
 import {findings} from './findings.js';
+import {foldOnNarrow} from './fold.js';
 import {hauls} from './haul.js';
 import {contrasts, figures, panels} from './panels.js';
 import {asked} from './question.js';
@@ -60,6 +61,7 @@ const builders = data.replay
       asked,
       facts,
     ];
+const behind = ['surfaces', 'haul', 'designs', 'trust', 'surrogates', 'findings', 'runs', 'study', 'making'];
 const sections = builders.map(attempt).filter(Boolean);
 page.replaceChildren(
   header(data),
@@ -68,5 +70,6 @@ page.replaceChildren(
   data.replay ? '' : selectionBar(shared),
 );
 document.getElementById('main').append(...sections);
+if (!data.replay) foldOnNarrow(sections, behind);
 window.dispatchEvent(new Event('resize'));
 document.documentElement.dataset.ready = 'true';
