@@ -17,8 +17,8 @@ using Eigen::Vector3d;
 
 constexpr double short_share = 0.1;  // of the inner radii: a way in which shapes can only cut a corner off
 
-// The turn by 2 atan(|v|/2) about v: that by |v| but for |v|³/12, without a sine. A turn of more than 0.2, where that is
-// above 7e-4, takes one.
+// The turn by 2 atan(|v|/2) about v: that by |v| but for |v|³/12, without a sine. A turn of more than 0.2, where that
+// is above 7e-4, takes one.
 Eigen::Matrix3d turn_of(const Vector3d& v) {
   if (const double angle = v.norm(); angle > 0.2)
     return Eigen::AngleAxisd(angle, v / angle).toRotationMatrix();

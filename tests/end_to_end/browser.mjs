@@ -105,11 +105,15 @@ export async function openPage(place, {downloads = null} = {}) {
   await send('Emulation.setDeviceMetricsOverride', {width: 1280, height: 900, deviceScaleFactor: 1, mobile: false});
   if (downloads) await sendAny('Browser.setDownloadBehavior', {behavior: 'allow', downloadPath: downloads});
   const page = {...hands(send), product, errors, send, close};
+  page.load = async () => {
+    await send('Page.navigate', {url: 'about:blank'});
+    await send('Page.navigate', {url: address});
+    await page.until('document.documentElement?.dataset.ready === "true"', 4 * patience);
+    await page.evaluate("document.documentElement.style.scrollBehavior = 'auto'"); // a click aims at what stands still
+  };
   const begin = performance.now();
-  await send('Page.navigate', {url: address});
-  await page.until('document.documentElement?.dataset.ready === "true"', 4 * patience);
+  await page.load();
   page.loaded = performance.now() - begin;
-  await page.evaluate("document.documentElement.style.scrollBehavior = 'auto'"); // a click aims at what stands still
   /// Of the page's main thread so far [ms].
   page.processor = async () =>
     1000 * (await send('Performance.getMetrics')).metrics.find((m) => m.name === 'TaskDuration').value;

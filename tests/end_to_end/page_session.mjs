@@ -425,8 +425,7 @@ await step('cycles', one('.cycles select'), async () => {
 await step('a phone, from the beginning', one('#trust'), async () => {
   const [width, height] = screens.phone;
   await page.send('Emulation.setDeviceMetricsOverride', {width, height, deviceScaleFactor: 1, mobile: true});
-  await evaluate('(window.before = true) && location.reload()').catch(() => null);
-  await until('!window.before && document.documentElement?.dataset.ready === "true"');
+  await page.load();
   await page.settled();
   const folded = await count('details.folded'),
     tall = (await evaluate('document.documentElement.scrollHeight')) / height;

@@ -58,7 +58,8 @@ TEST_F(PageSession, TheReport) {
               "line of a design, pointed at and clicked: point",
               "run on a surface, pointed at and clicked: run",
               ".svg, ",
-              "paper: "},
+              "paper: ",
+              "a phone, from the beginning: "},
              8);  // those of a scene, and of a haul
 }
 
@@ -70,7 +71,7 @@ TEST_F(PageSession, TheReplayOfARunOfTwoCycles) {
              {"keys in the scene: 0 s, 0.05 s, 2 s", "play: to ", "slider of time: to 1.", "cameras: side",
               "click in a plot of the scene: to ", "payload 2.50 t",
               "plot of the scene, saved: troubled_run_", "cycles: 1, 2"},
-             21);  // those of a report
+             22);  // those of a report
 }
 
 TEST_F(PageSession, OneCycleHasAPageAndPicturesOfItsOwn) {

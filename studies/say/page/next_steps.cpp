@@ -115,7 +115,6 @@ std::vector<NextStep> next_steps(const ReportInput& input) {
         {"Choose: the front has the points that matter, with what simulation gave; repeat the one that "
          "you would take with other seeds before deciding.",
          command_text(input, "front")});
-  std::stable_partition(open.begin(), open.end(), [](const NextStep& step) { return !step.command.empty(); });
   Steps all = steps_for_failures(input);
   append(all, open);
   if (all.size() > most_steps) all.resize(most_steps);

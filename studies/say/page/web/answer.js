@@ -44,8 +44,14 @@ function trustLine({trust, cautions}) {
 
 function nextLine({summary: {next}}) {
   if (!next.length) return null;
-  const [{text, command}] = next;
-  return el('p', {class: 'brief'}, el('b', {}, 'Next: '), command ? el('code', {}, command) : text);
+  const [{text, command}] = next,
+    other = next.find((step) => step.command);
+  const said = command
+    ? el('code', {}, command)
+    : other
+      ? [el('span', {class: 'why'}, text + ' Or: '), el('code', {}, other.command)]
+      : text;
+  return el('p', {class: 'brief'}, el('b', {}, 'Next: '), said);
 }
 
 /// The first two objectives, or the only one over the variable that matters most.
