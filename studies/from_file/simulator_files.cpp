@@ -18,6 +18,9 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t most_files = 200;
 constexpr std::uintmax_t most_bytes = 4'000'000;
+constexpr std::size_t most_named = 10'000;
+constexpr std::uintmax_t most_named_bytes =
+    1'000'000'000;                      // which are read at the begin and the end of each run
 constexpr int most_looked_at = 20'000;  // names of a folder, before it counts as too large
 
 std::uint64_t hash_of(const fs::path& name, std::uint64_t hash) {
@@ -41,15 +44,31 @@ bool is_study(const fs::path& folder) {
   return fs::exists(folder / "study.db", ignored);
 }
 
+/// Files that a study file names, and their bytes.
+struct Named {
+  std::set<fs::path> files;
+  std::uintmax_t bytes = 0;
+
+  void add(const fs::path& file, const std::string& pattern) {
+    std::error_code ignored;
+    if (!files.insert(file.lexically_normal()).second) return;
+    if (const std::uintmax_t size = fs::file_size(file, ignored); !ignored) bytes += size;
+    if (files.size() > most_named || bytes > most_named_bytes)
+      throw std::runtime_error("\"files\": \"" + pattern + "\" and those before it name more than " +
+                               std::to_string(most_named) +
+                               " files or 1 GB; name those of the program alone");
+  }
+};
+
 /// Without the folders of studies, where programs write.
-void add_below(const fs::path& place, std::set<fs::path>& files) {
+void add_below(const fs::path& place, const std::string& pattern, Named& named) {
   std::error_code ignored;
-  if (fs::is_regular_file(place, ignored)) files.insert(place.lexically_normal());
+  if (fs::is_regular_file(place, ignored)) named.add(place, pattern);
   if (!fs::is_directory(place, ignored) || is_study(place)) return;
   fs::recursive_directory_iterator entry(place, fs::directory_options::skip_permission_denied, ignored), end;
   for (; entry != end; entry.increment(ignored)) {
     if (entry->is_directory(ignored) && is_study(entry->path())) entry.disable_recursion_pending();
-    if (entry->is_regular_file(ignored)) files.insert(entry->path().lexically_normal());
+    if (entry->is_regular_file(ignored)) named.add(entry->path(), pattern);
   }
 }
 
@@ -82,18 +101,19 @@ bool add_alike(const fs::path& program, std::set<fs::path>& files, std::uintmax_
 }  // namespace
 
 SimulatorFiles files_named(const std::vector<std::string>& patterns, const fs::path& folder) {
-  std::set<fs::path> files;
+  Named named;
   for (const std::string& pattern : patterns) {
     glob_t found = {};
     const int error = glob((folder / pattern).c_str(), 0, nullptr, &found);
-    for (std::size_t k = 0; error == 0 && k < found.gl_pathc; ++k) add_below(found.gl_pathv[k], files);
+    const std::vector<std::string> places(found.gl_pathv, found.gl_pathv + (error == 0 ? found.gl_pathc : 0));
     globfree(&found);
+    for (const std::string& place : places) add_below(place, pattern, named);
     if (error != 0)
       throw std::runtime_error("\"files\": \"" + pattern +
                                "\" names nothing; give names and patterns as a shell takes them, relative to "
                                "the study file");
   }
-  return summed(files, folder);
+  return summed(named.files, folder);
 }
 
 SimulatorFiles files_like(const std::vector<fs::path>& programs, const fs::path& folder) {

@@ -293,6 +293,8 @@ TEST_F(ExternalProgram, StudyFilesAreReadStrictly) {
       complaint(x + R"("responses": [{"name": "y", "unit": "k\ng", "goal": "minimize"}],)" + command),
       "the unit of \"y\" holds a control character"));
   EXPECT_TRUE(contains(complaint(x + x + y + command), "the key \"variables\" stands twice"));
+  EXPECT_TRUE(contains(complaint(x + y + R"("command": ["true"], "files": ["/usr"])"),
+                       "\"/usr\" and those before it name more than 10000 files or 1 GB"));
   EXPECT_TRUE(contains(complaint(y + command), "\"variables\" is missing"));
   EXPECT_TRUE(contains(complaint(R"("variables": [{"name": "x", "lower": "0", "upper": 1}],)" + y + command),
                        "variables[0]: \"lower\" is \"0\"; give a number"));
