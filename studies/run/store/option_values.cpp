@@ -119,8 +119,8 @@ std::string preset_complaint(const std::vector<Preset>& presets, const std::stri
 void check(const std::vector<Preset>& presets, const std::vector<StudyOption>& options) {
   for (const Preset& preset : presets)
     for (const auto& [name, value] : preset.values) {
-      const auto option =
-          std::find_if(options.begin(), options.end(), [&name = name](const auto& o) { return o.name == name; });
+      const auto option = std::find_if(options.begin(), options.end(),
+                                       [&name = name](const auto& o) { return o.name == name; });
       const std::string place = "studies::Study: preset \"" + preset.name + "\" sets ";
       if (option == options.end())
         throw std::invalid_argument(place + "\"" + name + "\", which is none of the study's options");
