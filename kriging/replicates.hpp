@@ -29,7 +29,7 @@ enum class RepeatsSay {
   noisy     ///< two differ in one
 };
 
-/// Of the runs that succeeded.
+/// Looks at the runs that succeeded.
 inline RepeatsSay repeats_say(const doe::Evaluations& runs) {
   const Eigen::MatrixXd X = runs.X();
   const auto sites = detail::sites_of(X);

@@ -172,9 +172,10 @@ class ContactFinder::Impl {
         pairs_.held(m.slot).contact.feature, touch);
   }
 
-  bool meets_face(const Manifold& m, int point, const Vector3d& shift, const Turning& turning) const {
-    return detail::meets_face(m, items_.placed[m.collider_a], items_.placed[m.collider_b],
-                              pairs_.held(m.slot).contact, point, shift, turning);
+  bool meets_face(const Manifold& m, const RigidMotion& a, const RigidMotion& b, double h, int point,
+                  const Vector3d& shift) const {
+    return detail::meets_face(m, {items_.placed[m.collider_a], a}, {items_.placed[m.collider_b], b}, h,
+                              pairs_.held(m.slot).contact, point, shift);
   }
 
   // A cylinder that turns about its axis stays where it is.
@@ -303,9 +304,9 @@ bool ContactFinder::first_touch(const Manifold& manifold, const RigidMotion& a, 
                                 double h, int thread, FirstTouch& touch) const {
   return impl_->first_touch(manifold, a, b, h, thread, touch);
 }
-bool ContactFinder::meets_face(const Manifold& manifold, int point, const Vector3d& shift,
-                               const Turning& turning) const {
-  return impl_->meets_face(manifold, point, shift, turning);
+bool ContactFinder::meets_face(const Manifold& manifold, const RigidMotion& a, const RigidMotion& b, double h,
+                               int point, const Vector3d& shift) const {
+  return impl_->meets_face(manifold, a, b, h, point, shift);
 }
 bool ContactFinder::with_half_space(const Manifold& manifold) const {
   return impl_->with_half_space(manifold);

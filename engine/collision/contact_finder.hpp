@@ -86,9 +86,9 @@ class ContactFinder {
   bool first_touch(const Manifold& manifold, const RigidMotion& a, const RigidMotion& b, double h, int thread,
                    FirstTouch& touch) const;
   /// Returns whether a point of such a manifold meets the face that gave its normal, when b moves against a by
-  /// `shift` [m] and both turn. The manifold is then that of the first touch, at less cost.
-  bool meets_face(const Manifold& manifold, int point, const Eigen::Vector3d& shift,
-                  const Turning& turning) const;
+  /// `shift` [m] there and both turn. The manifold is then that of the first touch, at less cost.
+  bool meets_face(const Manifold& manifold, const RigidMotion& a, const RigidMotion& b, double h, int point,
+                  const Eigen::Vector3d& shift) const;
   /// Whether one of its shapes is a half-space, whose normal is the same wherever the other goes.
   bool with_half_space(const Manifold& manifold) const;
 

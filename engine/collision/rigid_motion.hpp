@@ -21,10 +21,4 @@ struct RigidMotion {
   Eigen::Vector3d shift(double t) const { return t * (velocity + 0.5 * t * acceleration); }
 };
 
-/// How two bodies turn in a step.
-struct Turning {
-  double a = 0, b = 0;  ///< angles [rad]
-  double bend = 0;      ///< by how much it takes a point of theirs off its straight way at most [m]
-};
-
 }  // namespace drawpoint::engine

@@ -130,19 +130,23 @@ bool SweptContact::apart(const Placement& a, const Placement& b, const Feature& 
   return axes_.find({*a.hull, *b.hull, pose_against(a, b)}, query).separation > constants::touching;
 }
 
-bool meets_face(const Manifold& m, const Placement& a, const Placement& b, const ConvexContact& contact,
-                int point, const Vector3d& shift, const Turning& turning) {
+bool meets_face(const Manifold& m, const MovingHull& a, const MovingHull& b, double h,
+                const ConvexContact& contact, int point, const Vector3d& shift) {
   const bool on_a = contact.feature.kind == FeatureKind::face_a;
   if (!on_a && contact.feature.kind != FeatureKind::face_b) return false;
-  const Placement& reference = on_a ? a : b;
+  const Placement& reference = on_a ? a.placement : b.placement;
   const int face = on_a ? contact.feature.a : contact.feature.b;
   const Vector3d outward = on_a ? m.normal : Vector3d(-m.normal);
   if ((reference.R * reference.hull->normals[face] - outward).norm() > constants::same_face) return false;
   const ManifoldPoint& p = m.points[static_cast<std::size_t>(point)];
   const double closing = -m.normal.dot(shift);
-  // The face turns too, by which a point that goes along it comes nearer or not.
-  const double along = (shift + closing * m.normal).norm(),
-               bend = turning.bend + (on_a ? turning.a : turning.b) * along;
+  if (closing < p.gap) return false;
+  // Turning takes the point off its straight way, and a face that turns comes nearer to a point that goes along it.
+  const auto angle = [&](const MovingHull& hull) { return h * hull.motion.angular_velocity.norm(); };
+  const auto arm = [&](const MovingHull& hull) { return (p.position - hull.motion.origin).norm(); };
+  const double turn_a = angle(a), turn_b = angle(b), along = (shift + closing * m.normal).norm(),
+               bend = 0.5 * (turn_a * turn_a * arm(a) + turn_b * turn_b * arm(b)) +
+                      (on_a ? turn_a : turn_b) * along;
   if (closing - bend < p.gap) return false;
   const Vector3d other =
       p.position + 0.5 * p.gap * outward + p.gap / closing * (on_a ? shift : Vector3d(-shift));

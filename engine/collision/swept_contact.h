@@ -39,8 +39,8 @@ class SweptContact {
 };
 
 /// Whether a point of the pair's contact meets the face that gave the normal, when b goes against a by
-/// `shift` [m] in a step, however they turn: then the contact is where it will be.
-bool meets_face(const Manifold& m, const Placement& a, const Placement& b, const ConvexContact& contact,
-                int point, const Eigen::Vector3d& shift, const Turning& turning);
+/// `shift` [m] there in a step of h, however they turn with their bodies: then the contact is where it will be.
+bool meets_face(const Manifold& m, const MovingHull& a, const MovingHull& b, double h,
+                const ConvexContact& contact, int point, const Eigen::Vector3d& shift);
 
 }  // namespace drawpoint::engine::detail

@@ -44,13 +44,6 @@ double most_closing(const Vector3d& velocity, const Vector3d& acceleration, cons
   return -h * n.dot(velocity) + std::max(0.0, -h * h * n.dot(acceleration));
 }
 
-Turning turning_of(const RigidMotion& a, const RigidMotion& b, const Vector3d& at, double h) {
-  Turning turning{h * a.angular_velocity.norm(), h * b.angular_velocity.norm()};
-  turning.bend =
-      0.5 * (turning.a * turning.a * (at - a.origin).norm() + turning.b * turning.b * (at - b.origin).norm());
-  return turning;
-}
-
 }  // namespace
 
 void JoiningPoints::find(const std::vector<Manifold>& manifolds, const Scene& scene, const StepBodies& bodies,
@@ -119,10 +112,8 @@ unsigned JoiningPoints::joining(const Step& step, const Manifold& m, double leas
       size_of(surface_a, surface_b) * (b.angular_velocity - a.angular_velocity).cross(m.normal).norm();
   if (h * turning + most_closing(velocity(m.points[0]), acceleration, m.normal, h) < least) return within;
   for (int k = 0; k < m.count; ++k) {
-    const ManifoldPoint& p = m.points[static_cast<std::size_t>(k)];
-    const Vector3d shift = h * (velocity(p) + 0.5 * h * acceleration);
-    if (within >> k & 1u && step.scene.finder().meets_face(m, k, shift, turning_of(a, b, p.position, h)))
-      return within;
+    const Vector3d shift = h * (velocity(m.points[static_cast<std::size_t>(k)]) + 0.5 * h * acceleration);
+    if (within >> k & 1u && step.scene.finder().meets_face(m, a, b, h, k, shift)) return within;
   }
   touches.emplace_back();
   FirstTouch& touch = touches.back();

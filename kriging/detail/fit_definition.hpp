@@ -9,8 +9,8 @@
 #include <drawpoint/kriging/detail/blind.hpp>
 #include <drawpoint/kriging/detail/compiled.hpp>
 #include <drawpoint/kriging/detail/exact_or_noisy.hpp>
-#include <drawpoint/kriging/detail/exact_repeats.hpp>
 #include <drawpoint/kriging/detail/fit_prepared.hpp>
+#include <drawpoint/kriging/detail/joined_repeats.hpp>
 #include <drawpoint/kriging/detail/sites.hpp>
 #include <drawpoint/kriging/detail/training_data.hpp>
 #include <drawpoint/kriging/fit.hpp>

@@ -197,9 +197,7 @@ inline void SearchProcess::explain(Front& front) const {
   if (front.X.rows() > 0) {
     if (failed_ > few * evaluations_)
       front.message = std::to_string(failed_) + " of " + all +
-                      " evaluations failed, and the front lacks what lies there; "
-                      "the first: " +
-                      first_reason_;
+                      " evaluations failed, and the front lacks what lies there; the first: " + first_reason_;
   } else if (evaluations_ == 0) {
     front.status = SearchStatus::nothing_evaluated;
     front.message = "the search was stopped before its first population was evaluated";

@@ -129,7 +129,7 @@ int main(int argc, char** argv) {
       return start(program, argv + 1);
     }
     const int code = answer(first, {argv + std::min(argc, 2), argv + argc}, folder, studies);
-    if (std::fflush(stdout) != 0)
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
       throw std::runtime_error("cannot write to standard output; is the disk full?");
     return code;
   } catch (const std::exception& e) {

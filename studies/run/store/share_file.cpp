@@ -226,7 +226,8 @@ std::string shared_definition(const fs::path& file) {
   share_facts(file);
   return of_share(file, [&] {
     SQLite::Database database = opened_share(file);
-    SQLite::Statement rows(database, shared_rows + std::string("WHERE s.name = 'study.json'"));
+    SQLite::Statement rows(database, shared_rows + std::string("WHERE s.name = ?"));
+    rows.bind(1, definition_name);
     return rows.executeStep() ? bytes_of(file, rows) : std::string();
   });
 }

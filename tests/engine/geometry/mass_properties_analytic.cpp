@@ -69,8 +69,9 @@ TEST(MassProperties, RefuseADensityThatIsNone) {
   EXPECT_THROW(mass_properties(box({1, 1, 1}), std::nan("")), std::invalid_argument);
 }
 
-// Of hulls of twenty random points: axes by rising moment, right-handed, the largest component of the first two
-// positive, and no products of inertia, but for the round-off of an eigenvalue problem, some 1e-15 of the moments.
+// The axes of hulls of twenty random points go by rising moment and are right-handed, the largest component of
+// the first two is positive, and there are no products of inertia but for the round-off of an eigenvalue
+// problem, some 1e-15 of the moments.
 TEST(MassProperties, PrincipalAxesAreThoseOfTheText) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> coordinate(-1, 1);

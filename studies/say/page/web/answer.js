@@ -44,14 +44,11 @@ function trustLine({trust, cautions}) {
 
 function nextLine({summary: {next}}) {
   if (!next.length) return null;
-  const [{text, command}] = next,
-    other = next.find((step) => step.command);
-  const said = command
-    ? el('code', {}, command)
-    : other
-      ? [el('span', {class: 'why'}, text + ' Or: '), el('code', {}, other.command)]
-      : text;
-  return el('p', {class: 'brief'}, el('b', {}, 'Next: '), said);
+  const [first] = next,
+    doing = next.find((step) => step.command);
+  const why = doing && doing !== first ? el('span', {class: 'why'}, first.text + ' Or: ') : null,
+    what = doing ? el('code', {}, doing.command) : first.text;
+  return el('p', {class: 'brief'}, el('b', {}, 'Next: '), why, what);
 }
 
 /// The first two objectives, or the only one over the variable that matters most.
