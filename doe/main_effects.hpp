@@ -37,12 +37,13 @@ struct MainEffectsOptions {
 /// One curve: entries are levels, NaN where every run failed; means and bands in the unit of the response.
 struct MainEffect {
   std::string variable, response;
-  SensitivityStatus status = SensitivityStatus::estimated;  ///< too_few_runs: the mean is NaN somewhere
-  std::string message = {};                                 ///< empty when estimated
-  Eigen::VectorXd x;                                        ///< natural units
-  Eigen::VectorXd mean;                                     ///< E[f | x_j = x]
-  Eigen::VectorXd standard_error;                           ///< of the mean, as if the points were random
-  Eigen::VectorXd low, high;                                ///< 10 % and 90 % of the responses
+  /// too_few_runs: the mean is NaN somewhere; runs_lost: more than a twentieth failed at some level.
+  SensitivityStatus status = SensitivityStatus::estimated;
+  std::string message = {};        ///< empty when estimated
+  Eigen::VectorXd x;               ///< natural units
+  Eigen::VectorXd mean;            ///< E[f | x_j = x]
+  Eigen::VectorXd standard_error;  ///< of the mean, as if the points were random
+  Eigen::VectorXd low, high;       ///< 10 % and 90 % of the responses
 };
 
 namespace detail {
@@ -91,6 +92,25 @@ inline void set_level(MainEffect& effect, Eigen::Index k, Eigen::VectorXd values
   effect.high[k] = values.size() ? sorted_quantile(values, 0.9) : none;
 }
 
+/// Tells of levels where runs failed; kept: how many succeeded at each.
+inline void tell_losses(MainEffect& effect, const Eigen::VectorXi& kept, int samples) {
+  const auto empty = (kept.array() == 0).count();
+  Eigen::Index worst = 0;
+  const int lost = samples - kept.minCoeff(&worst);
+  if (empty > 0) {
+    effect.status = SensitivityStatus::too_few_runs;
+    effect.message = "every run failed at " + std::to_string(empty) + " of " + std::to_string(kept.size()) +
+                     " levels, where the mean is NaN; see the reasons of the failures, or narrow the bounds";
+  } else if (20 * lost > samples) {
+    effect.status = SensitivityStatus::runs_lost;
+    effect.message =
+        std::to_string(lost) + " of " + std::to_string(samples) + " runs failed at " + effect.variable +
+        " = " + number_text(effect.x[worst]) +
+        ": means there are of the part of the box where runs succeed; narrow the bounds, or give failed "
+        "runs a value";
+  }
+}
+
 inline MainEffect main_effect(const Evaluations& runs, Eigen::Index j, Eigen::Index response,
                               const MainEffectsOptions& options) {
   const Variable& variable = runs.problem.variables[j];
@@ -102,7 +122,7 @@ inline MainEffect main_effect(const Evaluations& runs, Eigen::Index j, Eigen::In
                     .standard_error = blank,
                     .low = blank,
                     .high = blank};
-  int empty = 0;
+  Eigen::VectorXi succeeded(options.levels);
   for (int k = 0; k < options.levels; ++k) {
     effect.x[k] = level(variable, k, options.levels);
     Eigen::VectorXd values(options.samples);
@@ -113,14 +133,9 @@ inline MainEffect main_effect(const Evaluations& runs, Eigen::Index j, Eigen::In
       if (!outcome.failed()) values[kept++] = outcome.values()[response];
     }
     set_level(effect, k, values.head(kept));
-    empty += kept == 0;
+    succeeded[k] = static_cast<int>(kept);
   }
-  if (empty > 0) {
-    effect.status = SensitivityStatus::too_few_runs;
-    effect.message = "every run failed at " + std::to_string(empty) + " of " +
-                     std::to_string(options.levels) +
-                     " levels, where the mean is NaN; see the reasons of the failures, or narrow the bounds";
-  }
+  tell_losses(effect, succeeded, options.samples);
   return effect;
 }
 

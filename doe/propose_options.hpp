@@ -8,7 +8,7 @@
 #include <functional>
 #include <optional>
 
-#include <drawpoint/doe/detail/voronoi.hpp>
+#include <drawpoint/doe/allowed.hpp>
 #include <drawpoint/doe/outcome.hpp>
 #include <drawpoint/doe/seed.hpp>
 

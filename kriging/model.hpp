@@ -47,8 +47,9 @@ class Model {
   explicit Model(detail::ModelState state);
 
   /// X: m x d, natural units. Throws std::invalid_argument for another number of columns, for numbers that
-  /// are not finite and for what is no level of a category.
-  Prediction predict(const Eigen::MatrixXd& X, Target target = Target::latent) const;
+  /// are not finite and for what is no level of a category. threads share blocks of 128 points, 0: all cores; the
+  /// bits do not depend on them.
+  Prediction predict(const Eigen::MatrixXd& X, Target target = Target::latent, int threads = 1) const;
 
   /// The mean alone, at a fraction of the cost. Throws as predict.
   Eigen::VectorXd mean(const Eigen::MatrixXd& X) const;
@@ -132,7 +133,7 @@ class Model {
   Eigen::VectorXd variance_of(const Eigen::MatrixXd& X, const Eigen::MatrixXd& scaled) const;
 
   // What the other explanation expects of the square of the error of each mean, m entries.
-  Eigen::VectorXd squares_by_other(const Eigen::MatrixXd& X, const Eigen::VectorXd& mean) const;
+  Eigen::VectorXd squares_by_other(const Eigen::MatrixXd& X, const Eigen::VectorXd& mean, int threads) const;
 
   // What the other explanation adds to the derivative of a variance, and to a covariance of points.
   void add_doubt(const Eigen::VectorXd& x, PredictionGradient& g) const;

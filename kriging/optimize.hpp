@@ -22,8 +22,7 @@
 #include <cstdint>
 #include <drawpoint/doe/detail/run_stream.hpp>
 #include <drawpoint/doe/evaluate_options.hpp>
-#include <drawpoint/doe/optimized_latin_hypercube.hpp>
-#include <drawpoint/kriging/detail/optimum_found.hpp>
+#include <drawpoint/kriging/detail/optimum_search.hpp>
 #include <filesystem>
 #include <functional>
 #include <limits>
@@ -111,23 +110,6 @@ inline int first_runs(const doe::Problem& problem, int budget, const OptimizeOpt
   return options.first.value_or(std::clamp(wanted, 1, std::max(budget / 3, 1)));
 }
 
-/// A Latin hypercube in the allowed part of the box: rows elsewhere give way to random ones.
-inline Eigen::MatrixXd first_design(const doe::Problem& problem, int runs, const OptimizeOptions& options) {
-  Eigen::MatrixXd X = doe::optimized_latin_hypercube(problem, runs, {.seed = options.seed});
-  if (!options.allowed) return X;
-  std::uint64_t counter = 0;
-  const Eigen::MatrixXd others =
-      doe::detail::allowed_points(problem, options.allowed, doe::run_seed(options.seed, 0, 3), runs, counter);
-  if (others.rows() < runs)
-    throw std::invalid_argument(
-        "kriging::optimize: allowed holds at fewer than 1 of 1000 points of the box; narrow the bounds of "
-        "the "
-        "variables to the allowed part");
-  for (Eigen::Index i = 0; i < X.rows(); ++i)
-    if (!options.allowed(X.row(i).transpose())) X.row(i) = others.row(i);
-  return X;
-}
-
 /// The point whose run is made twice, so that it tells whether the simulator is exact: the first that succeeded.
 inline Eigen::VectorXd point_to_repeat(const doe::Evaluations& ended, const Eigen::MatrixXd& first) {
   const auto good = std::find_if(ended.rows.begin(), ended.rows.end(),
@@ -168,7 +150,8 @@ inline void conclude(Optimum& o, doe::detail::StreamEnd end) {
 
 template <class F>
 Optimum optimized(const F& f, const doe::Problem& problem, int budget, const OptimizeOptions& options) {
-  const Eigen::MatrixXd first = first_design(problem, first_runs(problem, budget, options), options);
+  const Eigen::MatrixXd first =
+      first_design(problem, first_runs(problem, budget, options), options.seed, options.allowed);
   const bool ask = !problem.deterministic && budget > first.rows() + 1;
   const doe::EvaluateOptions evaluation = evaluation_of(options);
   doe::detail::check_options(evaluation);
@@ -209,3 +192,9 @@ Optimum optimize(const F& f, const doe::Problem& problem, int budget, const Opti
 }
 
 }  // namespace drawpoint::kriging
+
+#ifndef DRAWPOINT_KRIGING_COMPILED
+#include <drawpoint/kriging/detail/first_design.hpp>
+#include <drawpoint/kriging/detail/next_run.hpp>
+#include <drawpoint/kriging/detail/optimum_found.hpp>
+#endif

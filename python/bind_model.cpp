@@ -44,12 +44,23 @@ Eigen::VectorXd mean_of(const Model& model, const Points& X) {
   return mean;
 }
 
+kriging::Prediction predicted(const kriging::Model& model, const Eigen::MatrixXd& X, kriging::Target target,
+                              int threads) {
+  return model.predict(X, target, threads);
+}
+
+/// A model by the nearest runs keeps the threads of its fit.
+kriging::Prediction predicted(const kriging::NearestModel& model, const Eigen::MatrixXd& X,
+                              kriging::Target target, int) {
+  return model.predict(X, target);
+}
+
 template <class Model>
 std::pair<Eigen::VectorXd, Eigen::VectorXd> prediction_of(const Model& model, const Points& X,
-                                                          bool observation) {
+                                                          bool observation, int threads) {
   Eigen::VectorXd mean(X.rows()), variance(X.rows());
   in_blocks(X.rows(), [&](Eigen::Index from, Eigen::Index rows) {
-    const kriging::Prediction p = model.predict(X.middleRows(from, rows), target_of(observation));
+    const kriging::Prediction p = predicted(model, X.middleRows(from, rows), target_of(observation), threads);
     mean.segment(from, rows) = p.mean;
     variance.segment(from, rows) = p.variance;
   });

@@ -7,8 +7,10 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <drawpoint/doe/detail/threads.hpp>
 #include <drawpoint/kriging/detail/cholesky.hpp>
 #include <drawpoint/kriging/detail/compiled.hpp>
+#include <drawpoint/kriging/detail/parallel.hpp>
 #include <drawpoint/kriging/detail/parameter_uncertainty.hpp>
 #include <drawpoint/kriging/model.hpp>
 #include <stdexcept>
@@ -28,18 +30,23 @@ DRAWPOINT_KRIGING_INLINE Model::Model(detail::ModelState state)
   effects_ = detail::parameter_effects(s_);
 }
 
-DRAWPOINT_KRIGING_INLINE Prediction Model::predict(const Eigen::MatrixXd& X, Target target) const {
+DRAWPOINT_KRIGING_INLINE Prediction Model::predict(const Eigen::MatrixXd& X, Target target,
+                                                   int threads) const {
   check(X);
+  if (threads < 0)
+    throw std::invalid_argument("kriging::Model: threads is " + std::to_string(threads) +
+                                "; allowed is 0 or more; use 0 for all cores");
+  threads = doe::detail::thread_count(threads);
   Prediction p{Eigen::VectorXd(X.rows()), Eigen::VectorXd(X.rows())};
-  for (Eigen::Index i = 0; i < X.rows(); i += block) {
-    const Eigen::Index count = std::min(block, X.rows() - i);
+  detail::for_each_task(static_cast<int>((X.rows() + block - 1) / block), threads, [&](int b) {
+    const Eigen::Index i = b * block, count = std::min(block, X.rows() - i);
     const Eigen::MatrixXd points = X.middleRows(i, count), scaled = s_.input.apply(points);
     const Eigen::VectorXd mean = mean_of(points, scaled), variance = variance_of(points, scaled);
     std::copy(mean.begin(), mean.end(), p.mean.begin() + i);
     std::copy(variance.begin(), variance.end(), p.variance.begin() + i);
-  }
+  });
   if (other_) {
-    const Eigen::VectorXd squares = squares_by_other(X, p.mean);
+    const Eigen::VectorXd squares = squares_by_other(X, p.mean, threads);
     for (Eigen::Index i = 0; i < squares.size(); ++i)
       p.variance[i] += s_.doubt * std::max(0.0, squares[i] - p.variance[i]);
   }
@@ -49,8 +56,9 @@ DRAWPOINT_KRIGING_INLINE Prediction Model::predict(const Eigen::MatrixXd& X, Tar
 }
 
 DRAWPOINT_KRIGING_INLINE Eigen::VectorXd Model::squares_by_other(const Eigen::MatrixXd& X,
-                                                                 const Eigen::VectorXd& mean) const {
-  const Prediction other = other_->predict(X);
+                                                                 const Eigen::VectorXd& mean,
+                                                                 int threads) const {
+  const Prediction other = other_->predict(X, Target::latent, threads);
   Eigen::VectorXd squares(mean.size());
   for (Eigen::Index i = 0; i < squares.size(); ++i) {
     const double apart = other.mean[i] - mean[i];

@@ -21,6 +21,7 @@
 #include <drawpoint/kriging/acquisition_gradient.hpp>
 #include <drawpoint/kriging/acquisition_hypervolume.hpp>
 #include <drawpoint/kriging/detail/near_best.hpp>
+#include <drawpoint/kriging/detail/optimum_search.hpp>
 #include <drawpoint/kriging/detail/searched_models.hpp>
 #include <utility>
 #include <vector>
@@ -173,14 +174,6 @@ inline Eigen::MatrixXd neighbours(const SearchedModels& s, const std::vector<Eig
   return P;
 }
 
-/// What the next run is chosen by.
-struct NextRun {
-  doe::Seed seed = 1;
-  doe::Allowed allowed = {};
-  std::int64_t after_first = 0;  ///< runs begun after the first design
-  std::int64_t left = 1;         ///< runs to begin, this one included
-};
-
 inline std::optional<Eigen::VectorXd> point_of(const doe::Evaluations& taken, const doe::Criterion& criterion,
                                                const doe::ProposeOptions& options) {
   const doe::Sampler sampler = [&](const doe::Evaluations&) { return criterion; };
@@ -210,9 +203,9 @@ inline std::optional<Eigen::VectorXd> point_near_best(const doe::Evaluations& ta
   return point_of(taken, most_improvement(s, best, false), options);
 }
 
-/// The point of the next run; nothing where every point has been run. ended: the runs so far; pending: k x d.
-inline std::optional<Eigen::VectorXd> next_run(const doe::Evaluations& ended, const Eigen::MatrixXd& pending,
-                                               const NextRun& by) {
+DRAWPOINT_KRIGING_INLINE std::optional<Eigen::VectorXd> next_run(const doe::Evaluations& ended,
+                                                                 const Eigen::MatrixXd& pending,
+                                                                 const NextRun& by) {
   doe::Evaluations taken = ended;  // no run is asked for where one is under way
   for (const auto& x : pending.rowwise())
     taken.rows.push_back({0, 0, 0, x.transpose(), doe::Failure{"pending"}, 0.0});

@@ -11,21 +11,12 @@
 #include <cstdint>
 #include <drawpoint/doe/evaluations.hpp>
 #include <drawpoint/kriging/detail/next_run.hpp>
+#include <drawpoint/kriging/detail/optimum_search.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace drawpoint::kriging {
-
-/// A point with its responses, in the order and the units of the problem.
-struct OptimalPoint {
-  std::int64_t run = -1;   ///< of the table; −1: the models expect it, no run was made there
-  Eigen::VectorXd x = {};  ///< d, natural units
-  Eigen::VectorXd y = {};  ///< of an exact simulator what the run gave, else the response without its noise
-  /// Between which y lies with a probability of 95 %, by the models. Both are y for an exact simulator's run,
-  /// and for a recorded response, which has no model.
-  Eigen::VectorXd lower = {}, upper = {};
-};
 
 namespace detail {
 
@@ -45,12 +36,6 @@ inline OptimalPoint point_by_models(const SearchedModels& s, const Eigen::Vector
   return point;
 }
 
-struct OptimumFound {
-  std::vector<OptimalPoint> best;
-  std::optional<OptimalPoint> expected;
-  bool feasible = false, exact = false;
-};
-
 /// The rows that succeeded, in the order of SearchedModels::X.
 inline std::vector<const doe::Evaluation*> successful(const doe::Evaluations& runs) {
   std::vector<const doe::Evaluation*> rows;
@@ -59,7 +44,7 @@ inline std::vector<const doe::Evaluation*> successful(const doe::Evaluations& ru
   return rows;
 }
 
-inline OptimumFound optimum_found(const doe::Evaluations& runs, const NextRun& by) {
+DRAWPOINT_KRIGING_INLINE OptimumFound optimum_found(const doe::Evaluations& runs, const NextRun& by) {
   OptimumFound found;
   const std::vector<const doe::Evaluation*> rows = successful(runs);
   if (rows.empty()) return found;

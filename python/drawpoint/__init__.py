@@ -19,16 +19,26 @@ from .designs import halton, latin_hypercube, optimized_latin_hypercube, scrambl
 from .fronts import Front, front, fronts, hypervolume, hypervolume_contributions, nsga2
 from .kriging import Choice, FitWarning, Kriging, Standing, Validation, choose_kriging
 from .optimum import Optimum, Points, RunWarning, Runs, optimize
-from .sensitivity import Estimates, SobolIndices, sobol_indices
+from .sensitivity import (
+    ElementaryEffects,
+    Estimates,
+    MainEffect,
+    SobolIndices,
+    main_effects,
+    morris_screening,
+    sobol_indices,
+)
 
 __all__ = [
     "Choice",
+    "ElementaryEffects",
     "Estimates",
     "FitWarning",
     "Front",
     "Goal",
     "Kind",
     "Kriging",
+    "MainEffect",
     "Optimum",
     "Points",
     "RunWarning",
@@ -43,6 +53,8 @@ __all__ = [
     "hypervolume",
     "hypervolume_contributions",
     "latin_hypercube",
+    "main_effects",
+    "morris_screening",
     "nsga2",
     "optimize",
     "optimized_latin_hypercube",

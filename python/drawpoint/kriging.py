@@ -73,7 +73,7 @@ class Kriging:
         "blind" nor the structure "additive".
     starts : local searches, 1 or more.
     seed : of the starting points; equal input gives equal bits.
-    threads : of the matrix work of 500 runs or more; 0: all cores. Results do not depend on it.
+    threads : of the matrix work of 500 runs or more and of predict(); 0: all cores. Results do not depend on it.
 
     Attributes after fit()
     ----------------------
@@ -154,7 +154,7 @@ class Kriging:
             )
         if not return_std and return_interval is None:
             return self._fitted().mean(points)
-        mean, variance = self._fitted().predict(points, observation)
+        mean, variance = self._fitted().predict(points, observation, self.threads)
         std = np.sqrt(np.maximum(variance, 0.0))
         result: Tuple[Array, ...] = (mean, std) if return_std else (mean,)
         if return_interval is not None:

@@ -51,6 +51,38 @@ def test_lost_runs_and_constants_warn():
         drawpoint.sobol_indices(lambda x: 2.0, [0], [1], samples=16)
 
 
+def test_elementary_effects_of_a_plane_are_its_slopes():
+    e = drawpoint.morris_screening(lambda x: 3 * x[0] - x[1], [0, 0], [2, 1], names=["a", "b"])
+    assert e.status == "estimated" and (e.count == 10).all()
+    assert e.mean == pytest.approx([6, -1]) and e.mean_absolute == pytest.approx([6, 1])
+    assert e.deviation == pytest.approx([0, 0], abs=1e-12) and e.standard_error == pytest.approx([0, 0], abs=1e-12)
+
+
+def test_main_effects_of_a_sum_are_its_terms():
+    def both(X):
+        y = X[:, 0] ** 2 + X[:, 1]
+        return np.column_stack([y, -y])
+
+    curves = drawpoint.main_effects(
+        both, [0, 0], [1, 1], levels=5, samples=64, vectorized=True, response_names=["y", "minus"]
+    )
+    assert [(c.variable, c.response) for c in curves] == [("x0", "y"), ("x0", "minus"), ("x1", "y"), ("x1", "minus")]
+    assert curves[0].mean - curves[0].mean[0] == pytest.approx(np.linspace(0, 1, 5) ** 2)
+    assert (curves[2].mean == -curves[3].mean).all() and (curves[2].low <= curves[2].mean).all()
+
+
+def test_lost_runs_of_screenings_and_curves_warn():
+    def corner(x):
+        if x[0] > 0.5 and x[1] > 0.25:
+            raise RuntimeError("too steep")
+        return x[0]
+
+    with pytest.warns(drawpoint.RunWarning, match="morris_screening: runs_lost"):
+        drawpoint.morris_screening(corner, [0, 0], [1, 1], trajectories=40)
+    with pytest.warns(drawpoint.RunWarning, match="main_effects: runs_lost"):
+        drawpoint.main_effects(corner, [0, 0], [1, 1], levels=3, samples=16)
+
+
 @pytest.mark.parametrize(
     "options, message",
     [

@@ -242,6 +242,23 @@ TEST(MainEffects, BadInputAndFailures) {
             "doe::main_effects: stopped after 0 of 12 runs; give a journal to go on later");
 }
 
+// Runs fail where x₀ + x₁ > 1.5: at x₀ = 1 half of the points, at 0.5 and 0 none; so the mean of x₁ that is left
+// at x₀ = 1 is 0.25. At 32 points per level one of them lies in each 32nd of x₁, so that the mean is right to 1/64.
+TEST(MainEffects, TellWhereRunsAreLost) {
+  const auto f = [](const Eigen::VectorXd& x) -> Outcome {
+    if (x[0] + x[1] > 1.5) return Failure{"stuck"};
+    return x[1];
+  };
+  const auto effects = main_effects(f, support::unit_problem(2), {.levels = 3, .samples = 32});
+  EXPECT_EQ(effects[0].status, SensitivityStatus::runs_lost);
+  EXPECT_EQ(
+      effects[0].message,
+      "16 of 32 runs failed at x0 = 1: means there are of the part of the box where runs succeed; narrow the "
+      "bounds, or give failed runs a value");
+  EXPECT_NEAR(effects[0].mean[2], 0.25, 1.0 / 64);
+  EXPECT_NEAR(effects[0].mean[1], 0.5, 1.0 / 64);
+}
+
 // E[x₀ x₁ | x₀] = x₀ E[x₁]: the slope is the other's mean, 0.25 of a triangle from 0 over 0 to 0.75. 2^10
 // Sobol' points hold one in each of as many strata, so the mean is right to a stratum's width: 1/sqrt(1024)
 // at the triangle's thin end, times its share of 1/1024, and less elsewhere.

@@ -132,6 +132,20 @@ TEST(Fit, GivesTheSameBitsOnAnyNumberOfThreads) {
   }
 }
 
+// 300 points are three blocks, the last of them not full.
+TEST(Fit, ItsModelPredictsTheSameBitsOnAnyNumberOfThreads) {
+  const Runs runs = hilly(40, 0.05);
+  const Model model = fit(runs.X, runs.y);
+  const MatrixXd X = reference::design(300, 2, 5);
+  const Prediction alone = model.predict(X, Target::observation);
+  for (const int threads : {0, 2, 3, 8}) {
+    const Prediction shared = model.predict(X, Target::observation, threads);
+    EXPECT_EQ(shared.mean, alone.mean);
+    EXPECT_EQ(shared.variance, alone.variance);
+  }
+  EXPECT_THROW(model.predict(X, Target::latent, -1), std::invalid_argument);
+}
+
 TEST(Fit, OneRunIsAConstantOfInfiniteVariance) {
   const Model model = fit(points.topRows(1), VectorXd::Constant(1, 3.5));
   EXPECT_EQ(model.status(), Status::too_few_runs);

@@ -9,6 +9,7 @@
 #include <atomic>
 #include <cmath>
 #include <drawpoint/doe/remembered.hpp>
+#include <drawpoint/kriging/detail/searched_models.hpp>
 #include <drawpoint/kriging/optimize.hpp>
 #include <drawpoint/tests/doe/problems.hpp>
 #include <drawpoint/tests/kriging/test_functions.hpp>

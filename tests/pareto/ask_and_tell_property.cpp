@@ -8,6 +8,7 @@
 
 #include <atomic>
 #include <cmath>
+#include <drawpoint/doe/detail/hash.hpp>
 #include <drawpoint/pareto/moead.hpp>
 #include <drawpoint/pareto/nsga2.hpp>
 #include <drawpoint/pareto/nsga3.hpp>

@@ -52,6 +52,7 @@ inline Eigen::Vector2d on_zdt3(double t) {
 }
 /// f_1 is never below 0.2807753191.
 inline Eigen::Vector2d on_zdt6(double t) { return on_zdt2(0.2807753191 + (1.0 - 0.2807753191) * t); }
+inline Eigen::Vector2d on_wfg1(double t) { return {2.0 * wfg::convex(t), 4.0 * wfg::wavy(t)}; }
 inline Eigen::Vector2d on_wfg2(double t) { return {2.0 * wfg::convex(t), 4.0 * wfg::in_pieces(t)}; }
 inline Eigen::Vector2d on_wfg4(double t) {
   return {2.0 * std::sin(0.5 * std::numbers::pi * t), 4.0 * std::cos(0.5 * std::numbers::pi * t)};
@@ -168,6 +169,7 @@ inline std::vector<KnownFront> known_fronts() {
           two_objectives("ZDT3", zdt3, unit_problem(30, 2), on_zdt3),
           two_objectives("ZDT4", zdt4, unit_problem(10, 2), on_zdt1),
           two_objectives("ZDT6", zdt6, unit_problem(10, 2), on_zdt6),
+          two_objectives("WFG1", wfg1, wfg_problem(), on_wfg1),
           two_objectives("WFG2", wfg2, wfg_problem(), on_wfg2),
           two_objectives("WFG4", wfg4, wfg_problem(), on_wfg4),
           two_objectives("WFG9", wfg9, wfg_problem(), on_wfg4),

@@ -103,6 +103,8 @@ TEST(KnownFronts, OptimalPointsHaveTheValuesOfTheCurve) {
   for (int i = 0; i <= 200; ++i) {
     const double t = i / 200.0;
     EXPECT_NEAR((zdt3(first_and_rest(30, t, 0.0)).values() - on_zdt3(t)).norm(), 0.0, 1e-12);
+    // position is a mean of t^0.02
+    EXPECT_NEAR((wfg1(wfg_optimum(t)).values() - on_wfg1(std::pow(t, 0.02))).norm(), 0.0, 1e-11);
     EXPECT_NEAR((wfg2(wfg_optimum(t)).values() - on_wfg2(t)).norm(), 0.0, 1e-12);
     EXPECT_NEAR(mw1(mw1_optimum(t)).values()[1], 1.0 - 0.85 * t, 1e-12);
   }

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <cmath>
+#include <drawpoint/pareto/detail/stable_matching.hpp>
 #include <drawpoint/pareto/moead.hpp>
 #include <drawpoint/pareto/nsga2.hpp>
 #include <drawpoint/pareto/nsga3.hpp>

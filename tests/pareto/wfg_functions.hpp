@@ -2,13 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-/// Three of the WFG test functions, two objectives, four position and twenty distance variables.
+/// Four of the WFG test functions, two objectives, four position and twenty distance variables.
 ///
 /// Huband, Hingston, Barone, While 2006, "A review of multiobjective test problems and a scalable test
 /// problem toolkit". Variable i lies in [0, 2i]. A chain of transformations leads to a position p and a
-/// distance t; f_1 = t + 2 h_1(p), f_2 = t + 4 h_2(p), and the front is t = 0. WFG2: non-separable, a front
-/// in pieces; WFG4: 30 hills in each variable; WFG9: non-separable, deceptive, each variable biased by those
-/// after it. On the ellipse (f_1/2)² + (f_2/4)² = 1 lie the fronts of the last two.
+/// distance t; f_1 = t + 2 h_1(p), f_2 = t + 4 h_2(p), and the front is t = 0. WFG1: flat, strongly biased, a
+/// wavy front; WFG2: non-separable, a front in pieces; WFG4: 30 hills in each variable; WFG9: non-separable,
+/// deceptive, each variable biased by those after it. On the ellipse (f_1/2)² + (f_2/4)² = 1 lie the fronts of the
+/// last two.
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -50,6 +51,19 @@ inline double shift_deceptive(double y, double a, double b, double c) {
   return 1.0 + (std::abs(y - a) - b) * (low + high + 1.0 / b);
 }
 
+/// a between b and c.
+inline double flat(double y, double a, double b, double c) {
+  return a + std::min(0.0, std::floor(y - b)) * a * (b - y) / b -
+         std::min(0.0, std::floor(c - y)) * (1.0 - a) * (y - c) / (1.0 - c);
+}
+
+/// Variable i counts 2i times.
+inline double weighted_mean(const Values& y, Eigen::Index first, Eigen::Index count) {
+  const Values weight =
+      Values::LinSpaced(count, static_cast<double>(first + 1), static_cast<double>(first + count));
+  return y.segment(first, count).dot(weight) / weight.sum();
+}
+
 /// u: mean of the variables that decide the bias.
 inline double bias(double y, double u) {
   const double a = 0.98 / 49.98, b = 0.02, c = 50.0;
@@ -71,11 +85,27 @@ inline doe::Outcome on_the_ellipse(double position, double distance) {
   return {distance + 2.0 * std::sin(angle), distance + 4.0 * std::cos(angle)};
 }
 
-/// h_1 and h_2 of WFG2.
+/// h_1 of WFG1 and 2, h_2 of WFG1, h_2 of WFG2.
 inline double convex(double p) { return 1.0 - std::cos(0.5 * std::numbers::pi * p); }
+inline double wavy(double p) {
+  return 1.0 - p - std::cos(10.0 * std::numbers::pi * p + 0.5 * std::numbers::pi) / (10.0 * std::numbers::pi);
+}
 inline double in_pieces(double p) { return 1.0 - p * std::pow(std::cos(5.0 * std::numbers::pi * p), 2); }
 
 }  // namespace wfg
+
+inline doe::Outcome wfg1(const Eigen::VectorXd& z) {
+  Eigen::VectorXd y = wfg::in_unit_box(z);
+  const Eigen::Index rest = y.size() - wfg_position;
+  for (double& value : y.tail(rest)) {
+    const double distance = wfg::flat(wfg::shift_linear(value, 0.35), 0.8, 0.75, 0.85);
+    value = distance < 1e-14 ? 0.0 : distance;  // rounding, of which the power makes a half
+  }
+  for (double& value : y) value = std::pow(value, 0.02);
+  const double distance = wfg::weighted_mean(y, wfg_position, rest);
+  const double position = wfg::weighted_mean(y, 0, wfg_position);
+  return {distance + 2.0 * wfg::convex(position), distance + 4.0 * wfg::wavy(position)};
+}
 
 inline doe::Outcome wfg2(const Eigen::VectorXd& z) {
   Eigen::VectorXd y = wfg::in_unit_box(z);
