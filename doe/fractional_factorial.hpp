@@ -6,8 +6,9 @@
 ///
 /// Run i has the bits of i as levels of the first k variables (the last of them fastest); the others are the
 /// signed products that their generators name. `fractional_generators` finds generators of minimum aberration
-/// by trying all sets where that takes fewer than 2e7 words, else one generator after another, each the best
-/// so far (then a higher resolution may exist). Cost O(n d) once the generators are known.
+/// by trying all sets where that takes fewer than 2e7 words, else the best of one generator after another, each the
+/// best so far, and of lexicographic codes (then a higher resolution may exist). Cost O(n d) once the generators are
+/// known.
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -45,7 +46,9 @@ class AberrationSearch {
     }
     std::vector<std::uint32_t> group{0}, chosen;
     while (static_cast<int>(chosen.size()) < generated_) chosen.push_back(best_next(group, chosen));
-    return chosen;
+    least_ = counts(group), best_ = chosen;
+    for (int resolution = 4; resolution <= 7; ++resolution) try_lexicode(resolution);
+    return best_;
   }
 
  private:
@@ -82,6 +85,27 @@ class AberrationSearch {
       more.push_back(candidates_[k]);
       extend(k + 1, joined(group, candidates_[k], chosen.size()), std::move(more));
     }
+  }
+
+  /// The columns in rising order that are no sum of resolution - 2 or fewer of those before (Conway, Sloane 1986).
+  void try_lexicode(int resolution) {
+    std::vector<int> terms(std::size_t{1} << free_, resolution);  // fewest columns that sum up to each word
+    terms[0] = 0;
+    const auto add = [&](std::uint32_t word) {
+      const std::vector<int> before = terms;
+      for (std::size_t w = 0; w < terms.size(); ++w)
+        terms[w ^ word] = std::min(terms[w ^ word], before[w] + 1);
+    };
+    for (int j = 0; j < free_; ++j) add(1U << j);
+    std::vector<std::uint32_t> group{0}, chosen;
+    for (std::uint32_t word = 1; word < 1U << free_ && static_cast<int>(chosen.size()) < generated_; ++word) {
+      if (terms[word] <= resolution - 2) continue;
+      group = joined(std::move(group), word, chosen.size());
+      chosen.push_back(word);
+      add(word);
+    }
+    if (static_cast<int>(chosen.size()) < generated_) return;
+    if (const Counts found = counts(group); found < least_) least_ = found, best_ = chosen;
   }
 
   std::uint32_t best_next(std::vector<std::uint32_t>& group, const std::vector<std::uint32_t>& chosen) const {

@@ -93,7 +93,8 @@ inline void set_level(MainEffect& effect, Eigen::Index k, Eigen::VectorXd values
 }
 
 /// Tells of levels where runs failed; kept: how many succeeded at each.
-inline void tell_losses(MainEffect& effect, const Eigen::VectorXi& kept, int samples) {
+inline void tell_losses(MainEffect& effect, const Variable& variable, const Eigen::VectorXi& kept,
+                        int samples) {
   const auto empty = (kept.array() == 0).count();
   Eigen::Index worst = 0;
   const int lost = samples - kept.minCoeff(&worst);
@@ -103,9 +104,12 @@ inline void tell_losses(MainEffect& effect, const Eigen::VectorXi& kept, int sam
                      " levels, where the mean is NaN; see the reasons of the failures, or narrow the bounds";
   } else if (20 * lost > samples) {
     effect.status = SensitivityStatus::runs_lost;
+    const std::string at = variable.levels.empty()
+                               ? number_text(effect.x[worst])
+                               : variable.levels[static_cast<std::size_t>(effect.x[worst])];
     effect.message =
-        std::to_string(lost) + " of " + std::to_string(samples) + " runs failed at " + effect.variable +
-        " = " + number_text(effect.x[worst]) +
+        std::to_string(lost) + " of " + std::to_string(samples) + " runs failed at " + variable.name + " = " +
+        at +
         ": means there are of the part of the box where runs succeed; narrow the bounds, or give failed "
         "runs a value";
   }
@@ -135,7 +139,7 @@ inline MainEffect main_effect(const Evaluations& runs, Eigen::Index j, Eigen::In
     set_level(effect, k, values.head(kept));
     succeeded[k] = static_cast<int>(kept);
   }
-  tell_losses(effect, succeeded, options.samples);
+  tell_losses(effect, variable, succeeded, options.samples);
   return effect;
 }
 

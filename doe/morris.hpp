@@ -111,7 +111,8 @@ inline Trajectories trajectories(const Problem& problem, const MorrisOptions& op
     for (const Eigen::Index j : order) {
       const auto of = static_cast<std::size_t>(j);
       const int count = level_count(problem.variables[of], options.levels);
-      level[of] = (level[of] + count / 2) % count;
+      const int half = count / 2;
+      level[of] = level[of] < count - half ? level[of] + half : level[of] - (count - half);
       add(j);
     }
   }

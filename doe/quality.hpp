@@ -130,9 +130,13 @@ inline double squared_star_discrepancy(const Eigen::MatrixXd& U) {
 /// Largest |Pearson correlation| of two columns of X (n x d, any box); a constant column counts as
 /// uncorrelated.
 inline double largest_correlation(const Eigen::MatrixXd& X) {
-  Eigen::MatrixXd centred = X.rowwise() - X.colwise().mean();
-  for (auto column : centred.colwise())
+  Eigen::MatrixXd centred = X.rowwise() - X.row(0);  // exactly 0 in a constant column
+  for (auto column : centred.colwise()) {
+    if (const double size = column.cwiseAbs().maxCoeff(); size > 0.0)
+      column /= size;  // no square leaves the range
+    column.array() -= column.mean();
     if (const double norm = column.norm(); norm > 0.0) column /= norm;
+  }
   double largest = 0.0;
   for (Eigen::Index j = 1; j < X.cols(); ++j)
     for (Eigen::Index k = 0; k < j; ++k)

@@ -31,6 +31,7 @@
 #include <stop_token>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace drawpoint::kriging {
@@ -110,11 +111,18 @@ inline int first_runs(const doe::Problem& problem, int budget, const OptimizeOpt
   return options.first.value_or(std::clamp(wanted, 1, std::max(budget / 3, 1)));
 }
 
-/// The point whose run is made twice, so that it tells whether the simulator is exact: the first that succeeded.
+/// The point whose run is made twice, so that it tells whether the simulator is exact: of those that succeeded the one
+/// with the median of the first objective, since noisy runs may agree at an extreme.
 inline Eigen::VectorXd point_to_repeat(const doe::Evaluations& ended, const Eigen::MatrixXd& first) {
-  const auto good = std::find_if(ended.rows.begin(), ended.rows.end(),
-                                 [](const doe::Evaluation& row) { return !row.outcome.failed(); });
-  return good == ended.rows.end() ? Eigen::VectorXd(first.row(0).transpose()) : good->x;
+  const std::vector<doe::Response>& responses = ended.problem.responses;
+  const auto asked = std::find_if(responses.begin(), responses.end(),
+                                  [](const doe::Response& r) { return doe::is_objective(r.goal); });
+  std::vector<std::pair<double, const doe::Evaluation*>> good;
+  for (const doe::Evaluation& row : ended.rows)
+    if (!row.outcome.failed()) good.emplace_back(row.outcome.values()[asked - responses.begin()], &row);
+  if (good.empty()) return first.row(0).transpose();
+  std::stable_sort(good.begin(), good.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  return good[good.size() / 2].second->x;
 }
 
 inline doe::EvaluateOptions evaluation_of(const OptimizeOptions& options) {

@@ -21,10 +21,10 @@
 
 namespace drawpoint::kriging {
 
-/// What runs at equal points say of a simulator. A response that agrees by chance, such as a count, is not exact beside
-/// one that differs.
+/// What runs at equal points say of a simulator, by its objectives and limits; by all responses where it has none. What
+/// is only recorded, such as the time a run took, may differ.
 enum class RepeatsSay {
-  nothing,  ///< no point was run twice
+  nothing,  ///< no point was run twice, or the runs agree where noisy ones might (detail/sites.hpp)
   exact,    ///< all agree in every response
   noisy     ///< two differ in one
 };
@@ -34,10 +34,19 @@ inline RepeatsSay repeats_say(const doe::Evaluations& runs) {
   const Eigen::MatrixXd X = runs.X();
   const auto sites = detail::sites_of(X);
   if (static_cast<Eigen::Index>(sites.size()) == X.rows()) return RepeatsSay::nothing;
-  const bool agree = std::all_of(
-      runs.problem.responses.begin(), runs.problem.responses.end(),
-      [&](const doe::Response& response) { return detail::repeats_agree(sites, runs.y(response.name)); });
-  return agree ? RepeatsSay::exact : RepeatsSay::noisy;
+  const std::vector<doe::Response>& responses = runs.problem.responses;
+  const auto is_asked = [](const doe::Response& r) { return r.goal != doe::Goal::record; };
+  const bool all = std::none_of(responses.begin(), responses.end(), is_asked);
+  bool told = true, varies = false;
+  for (const doe::Response& response : responses) {
+    if (!all && !is_asked(response)) continue;
+    const Eigen::VectorXd y = runs.y(response.name);
+    if (!detail::repeats_agree(sites, y)) return RepeatsSay::noisy;
+    if ((y.array() == y[0]).all()) continue;
+    varies = true;
+    told = told && detail::agreement_tells(sites, y);
+  }
+  return told && varies ? RepeatsSay::exact : RepeatsSay::nothing;
 }
 
 enum class ReplicateNoise { pooled, own };
@@ -71,7 +80,7 @@ inline Replicates replicates(const Eigen::MatrixXd& X, const Eigen::VectorXd& y,
     const Eigen::VectorXd runs = y(groups[i]);
     r.X.row(i) = X.row(groups[i].front());
     r.count[i] = static_cast<int>(runs.size());
-    r.y[i] = runs.mean();
+    r.y[i] = runs[0] + (runs.array() - runs[0]).mean();  // exact where all agree
     r.noise_variance[i] = (runs.array() - r.y[i]).square().sum();
     if (noise == ReplicateNoise::own && runs.size() < 2)
       reject("the point of row " + std::to_string(groups[i].front()) +

@@ -91,7 +91,10 @@ inline PredictedRun predicted_run(const Validation& v, Index i) {
 /// probability of that.
 inline double negative_log_density(const PredictedRun& p, double y) {
   if (!reaches(p.transform, y)) return std::numeric_limits<double>::infinity();
-  const double z = transformed(p.transform, y), t = (z - p.mean) / p.deviation;
+  const double z = transformed(p.transform, y);
+  if (p.deviation == 0 && !std::isnan(p.mean))
+    return (z == p.mean ? -1 : 1) * std::numeric_limits<double>::infinity();
+  const double t = (z - p.mean) / p.deviation;
   if (p.transform.scale == Scale::square_root && z <= 0) return -log_normal_probability(t);
   return std::log(p.deviation * back_slope(p.transform, z)) - log_normal_density(t);
 }

@@ -12,6 +12,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <vector>
@@ -77,11 +78,16 @@ class CrowdingLines {
     for (const int i : lines_[static_cast<std::size_t>(j)])
       if (counts[static_cast<std::size_t>(i)]) line.push_back(i);
     const auto value = [&](std::size_t k) { return points_.Y(line[k], j); };
-    const double range = value(line.size() - 1) - value(0);
-    if (range <= 0.0) return;
+    const double range = 0.5 * value(line.size() - 1) - 0.5 * value(0);  // halves do not overflow
+    if (!(range > 0.0)) return;
     distance[line.front()] = distance[line.back()] = std::numeric_limits<double>::infinity();
     for (std::size_t k = 1; k + 1 < line.size(); ++k)
-      distance[line[k]] += (value(k + 1) - value(k - 1)) / range;
+      distance[line[k]] += share_of(0.5 * value(k + 1) - 0.5 * value(k - 1), range);
+  }
+
+  static double share_of(double gap, double range) {
+    if (std::isinf(range)) return std::isinf(gap) ? 1.0 : 0.0;
+    return gap / range;
   }
 
   SortedPoints points_;

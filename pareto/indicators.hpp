@@ -53,31 +53,41 @@ Eigen::VectorXd nearest(const Eigen::MatrixXd& Y, const Eigen::MatrixXd& Z, cons
   return result;
 }
 
+/// A power of two of the size of the largest difference, so that no square leaves the range.
+inline double unit_of(const Eigen::MatrixXd& Y, const Eigen::MatrixXd& Z) {
+  const Eigen::RowVectorXd high = Y.colwise().maxCoeff().cwiseMax(Z.colwise().maxCoeff()),
+                           low = Y.colwise().minCoeff().cwiseMin(Z.colwise().minCoeff());
+  const double range = (high - low).maxCoeff();
+  return range > 0.0 ? std::ldexp(1.0, std::ilogb(range)) : 1.0;
+}
+
 }  // namespace detail
 
 /// Inverted generational distance. This and the next two minimise every column, and throw
 /// std::invalid_argument when a front is empty, the columns differ or a number is not finite.
 inline double igd(const Eigen::MatrixXd& Y, const Eigen::MatrixXd& Z) {
   detail::check_fronts("pareto::igd: ", Y, Z);
-  const auto square = [m = Y.cols()](const double* y, const double* z) {
+  const double unit = detail::unit_of(Y, Z);
+  const auto square = [m = Y.cols(), unit](const double* y, const double* z) {
     double sum = 0.0;
-    for (Eigen::Index j = 0; j < m; ++j) sum += (y[j] - z[j]) * (y[j] - z[j]);
+    for (Eigen::Index j = 0; j < m; ++j) sum += std::pow((y[j] - z[j]) / unit, 2);
     return sum;
   };
-  return detail::nearest(Y, Z, square).cwiseSqrt().mean();
+  return detail::nearest(Y, Z, square).cwiseSqrt().mean() * unit;
 }
 
 inline double igd_plus(const Eigen::MatrixXd& Y, const Eigen::MatrixXd& Z) {
   detail::check_fronts("pareto::igd_plus: ", Y, Z);
-  const auto square = [m = Y.cols()](const double* y, const double* z) {
+  const double unit = detail::unit_of(Y, Z);
+  const auto square = [m = Y.cols(), unit](const double* y, const double* z) {
     double sum = 0.0;
     for (Eigen::Index j = 0; j < m; ++j) {
-      const double worse = std::max(y[j] - z[j], 0.0);
+      const double worse = std::max(y[j] - z[j], 0.0) / unit;
       sum += worse * worse;
     }
     return sum;
   };
-  return detail::nearest(Y, Z, square).cwiseSqrt().mean();
+  return detail::nearest(Y, Z, square).cwiseSqrt().mean() * unit;
 }
 
 inline double additive_epsilon(const Eigen::MatrixXd& Y, const Eigen::MatrixXd& Z) {

@@ -83,6 +83,13 @@ inline double price_of_leaving(const Eigen::MatrixXd& F, int i, const std::vecto
   return least;
 }
 
+inline Knees too_few_points(Eigen::Index rows, const std::string& points) {
+  return {KneeStatus::too_few_points,
+          {},
+          Eigen::VectorXd::Zero(rows),
+          "the front has " + points + "; a knee needs 3 or more"};
+}
+
 }  // namespace detail
 
 /// Throws std::invalid_argument for a front of another problem and for neighbours < 1. A knee must exceed a
@@ -94,13 +101,9 @@ inline Knees knees(const doe::Problem& problem, const Front& front, const KneeOp
   detail::check_range("pareto::knees: ", "neighbours", k, k >= 1, "1 or more; leave it out for all");
   Knees result;
   const auto n = static_cast<int>(front.Y.rows());
-  if (n < 3) {
-    result.status = KneeStatus::too_few_points;
-    result.message = "the front has " + std::to_string(n) + " points; a knee needs 3 or more";
-    result.strength = Eigen::VectorXd::Zero(n);
-    return result;
-  }
+  if (n < 3) return detail::too_few_points(n, std::to_string(n) + " points");
   const Eigen::MatrixXd F = detail::normalized(problem, front).F;
+  if (F.isZero(0.0)) return detail::too_few_points(n, "one point, " + std::to_string(n) + " times");
   const bool by_distance = options.measure == KneeMeasure::distance;
   std::vector<std::vector<int>> near;
   for (int i = 0; i < n; ++i) near.push_back(detail::neighbours_of(F, i, options.neighbours));

@@ -160,8 +160,8 @@ struct Simulator {
   std::vector<std::string> leading_words = {};
   /// The study as a file without what makes its runs, for people who have neither: `share` packs it as study.json.
   std::string definition = {};
-  /// Nobody says whether it gives equal values at equal points: a first design of twenty runs or more asks it, by one
-  /// more run at its first point.
+  /// Nobody says whether it gives equal values at equal points: a design of twenty runs or more asks it, by one more
+  /// run at its point nearest to the middle.
   bool asks_for_chance = false;
 };
 

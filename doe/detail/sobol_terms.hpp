@@ -53,10 +53,10 @@ class SobolTerms {
     Eigen::VectorXd index = Eigen::VectorXd::Zero(2 * d_ + pairs_of_inputs_);
     const double V = variance(m);
     if (!(V > 0.0)) return index;
-    const double var_a = m[2] - m[0] * m[0], var_b = m[3] - m[1] * m[1];
+    const double var_a = own_variance(m[0], m[2]), var_b = own_variance(m[1], m[3]);
     for (Eigen::Index j = 0; j < d_; ++j) {
       const auto t = m.segment<7>(4 + 7 * j);
-      const double var_c = t[4] - t[3] * t[3];
+      const double var_c = own_variance(t[3], t[4]);
       index[j] = t[0] / V;
       index[d_ + j] = 0.5 * t[1] / V;
       if (estimator == SobolEstimator::jansen) index[j] = 1.0 - 0.5 * t[2] / V;
@@ -85,6 +85,12 @@ class SobolTerms {
         terms_.col(at) = 0.5 * (Y.col(2 + d_ + j).array() * Y.col(2 + k).array() +
                                 Y.col(2 + d_ + k).array() * Y.col(2 + j).array()) -
                          product;
+  }
+
+  /// 0 where it is the round-off of equal values.
+  static double own_variance(double mean, double square) {
+    const double variance = square - mean * mean;
+    return variance > 1e-13 * square ? variance : 0.0;
   }
 
   static double correlation(double covariance, double u, double v) {

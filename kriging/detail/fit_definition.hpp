@@ -67,14 +67,15 @@ inline Model fit_either(const Eigen::MatrixXd& X, const TrainingData& data, cons
                                          : noisy;
 }
 
-/// Fits the first run of each site; the others join that model.
-inline Model fit_once_each(const Eigen::MatrixXd& X, const Eigen::VectorXd& y,
-                           const std::vector<std::vector<Eigen::Index>>& sites, const FitOptions& options,
-                           const std::string& said) {
+/// Fits the first run of each site in a way, fit_to or fit_either; the others join that model.
+template <class Way>
+Model fit_once_each(const Eigen::MatrixXd& X, const Eigen::VectorXd& y,
+                    const std::vector<std::vector<Eigen::Index>>& sites, const FitOptions& options,
+                    const Way& way, const std::string& said) {
   const std::vector<Eigen::Index> once = first_runs(sites);
   const Eigen::MatrixXd distinct = rows_of(X, once);
   const TrainingData data = prepare(distinct, entries_of(y, once), options);
-  return with_repeats(fit_to(distinct, data, options), X, y, said);
+  return with_repeats(way(distinct, data, options), X, y, said);
 }
 
 }  // namespace detail
@@ -88,11 +89,14 @@ DRAWPOINT_KRIGING_INLINE Model fit(const Eigen::MatrixXd& X, const Eigen::Vector
     const auto sites = detail::sites_of(X);
     const bool agree = detail::repeats_agree(sites, y);
     if (agree && given.noise == Noise::nugget && !given.may_be_exact)
-      return detail::fit_once_each(X, y, sites, options, "which is chance beside noise");
+      return detail::fit_once_each(X, y, sites, options, detail::fit_to, "which is chance beside noise");
     if (agree) {
       if (const auto trend = detail::exact_trend(data, options))
         return *trend;  // repeats count as runs for that
-      return detail::fit_once_each(X, y, sites, detail::with_exact_runs(given),
+      if (given.noise == Noise::nugget && !detail::agreement_tells(sites, y))
+        return detail::fit_once_each(X, y, sites, options, detail::fit_either,
+                                     "as others do, which tells little");
+      return detail::fit_once_each(X, y, sites, detail::with_exact_runs(given), detail::fit_to,
                                    "so the simulator is taken to be exact");
     }
     if (given.noise == Noise::nugget && static_cast<Eigen::Index>(sites.size()) == X.rows())

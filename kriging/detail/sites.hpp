@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <vector>
 
@@ -31,6 +32,23 @@ inline bool repeats_agree(const std::vector<std::vector<Eigen::Index>>& sites, c
   if (static_cast<Eigen::Index>(sites.size()) == y.size()) return false;
   return std::all_of(sites.begin(), sites.end(), [&](const std::vector<Eigen::Index>& site) {
     return std::all_of(site.begin(), site.end(), [&](Eigen::Index i) { return y[i] == y[site.front()]; });
+  });
+}
+
+/// Whether the repeats of exact runs show that they are: at one site at least they gave a value between the least and the
+/// largest, not 0, that no other site has, as no two others share one there. Where nothing happens, at a corner of the
+/// box, noisy runs agree, too, and counts and rounded numbers do anywhere. A response of one value shows nothing.
+inline bool agreement_tells(const std::vector<std::vector<Eigen::Index>>& sites, const Eigen::VectorXd& y) {
+  std::map<double, int> places;
+  for (const std::vector<Eigen::Index>& site : sites) ++places[y[site.front()]];
+  if (places.size() < 3) return false;
+  places.erase(places.begin());
+  places.erase(std::prev(places.end()));
+  if (std::any_of(places.begin(), places.end(), [](const auto& place) { return place.second > 1; }))
+    return false;
+  places.erase(0.0);
+  return std::any_of(sites.begin(), sites.end(), [&](const std::vector<Eigen::Index>& site) {
+    return site.size() > 1 && places.count(y[site.front()]) > 0;
   });
 }
 

@@ -5,6 +5,7 @@
 #include <drawpoint/studies/from_file/study_file.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -40,19 +41,33 @@ int run_study(std::vector<std::string> words, const studies::Study& study) {
 }
 
 /// What the program says of itself before it has a study.
-int of_any_study(const std::string& program, const std::string& question) {
+int of_any_study(const std::string& program, const std::vector<std::string>& question) {
   const studies::Study any{.name = "NAME",
                            .problem = {.variables = {{"VALUE", "1", 0, 1}}, .responses = {{"RESPONSE", "1"}}},
                            .black_box = [](const Eigen::VectorXd&) { return doe::Failure{"no study"}; },
                            .about = about,
                            .simulator = {.leading_words = {"STUDY.json"}}};
-  return run_study({program, "STUDY.json", question}, any);
+  std::vector<std::string> words{program, "STUDY.json"};
+  words.insert(words.end(), question.begin(), question.end());
+  return run_study(std::move(words), any);
+}
+
+/// The first word that is no option and no option's value; empty: there is none.
+std::string first_of_no_option(const std::vector<std::string>& words, std::size_t from) {
+  for (std::size_t i = from; i < words.size(); ++i) {
+    if (words[i].rfind('-', 0) != 0) return words[i];
+    if (words[i].find('=') == std::string::npos) ++i;
+  }
+  return "";
 }
 
 /// `open FILE ...`: the study lies in the file.
 int opened(std::vector<std::string> words) {
-  if (words.size() < 3) throw std::runtime_error("open: no file; give one that the command share made");
-  const studies::Study study = studies::study_in_share(words[2]);
+  if (std::find(words.begin() + 2, words.end(), "--help") != words.end())
+    return of_any_study(words[0], {"open", "--help"});
+  const std::string file = first_of_no_option(words, 2);
+  if (file.empty()) throw std::runtime_error("open: no file; give one that the command share made");
+  const studies::Study study = studies::study_in_share(file);
   words.insert(words.begin() + 1, "STUDY.json");
   return run_study(std::move(words), study);
 }
@@ -85,7 +100,8 @@ int main(int argc, char** argv) {
     return std::fflush(stdout) == 0 && std::ferror(stdout) == 0 ? 0 : 1;
   }
   try {
-    if (first == "--version" || first == "man-page" || first == "about") return of_any_study(argv[0], first);
+    if (first == "--version" || first == "man-page" || first == "about")
+      return of_any_study(argv[0], {first});
     if (first == "open") return opened({argv, argv + argc});
     if (first == "complete") return completed({argv, argv + argc});
     return studies::run(argc, argv, studies::study_from(first));

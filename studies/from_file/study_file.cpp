@@ -284,7 +284,11 @@ Study study_in_share(const fs::path& share) {
         share.string());
   const fs::path file = share / definition_name;
   try {
-    return study_of(strict_json(text), file, "");
+    const nlohmann::json content = strict_json(text);
+    if (content.contains("command"))
+      throw std::runtime_error(
+          "has a \"command\", which share leaves out: what others send makes no runs here");
+    return study_of(content, file, "");
   } catch (const std::exception& e) {
     throw std::runtime_error("open: " + file.string() + " " + e.what());
   }

@@ -173,9 +173,10 @@ double error_on(const doe::Evaluations& validation, const CycleModels& models,
 std::optional<HaulChoice> choice_of_haul(const ModelledStudy& study, const std::string& rate, double haul,
                                          const std::vector<WorkOfRun>& work) {
   const int response = doe::response_index(study.problem, rate);
-  if (response < 0 || study.front.X.rows() == 0 || work.size() < fewest_runs) return {};
+  if (response < 0 || study.front.X.rows() == 0) return {};
   const Tables tables{.training = cycles_of(study, study.training, work),
                       .validation = cycles_of(study, study.validation, work)};
+  if (tables.training.rows.size() < fewest_runs) return {};
   CycleModels models{.problem = tables.training.problem, .of = {}};
   try {
     models.of = fit_models({.training = tables.training, .validation = {.problem = models.problem}}).models;

@@ -3,11 +3,13 @@
 #include <drawpoint/studies/run/plan.h>
 #include <drawpoint/studies/run/settings.h>
 #include <drawpoint/doe/augmented_latin_hypercube.hpp>
+#include <drawpoint/doe/detail/unit_box.hpp>
 #include <drawpoint/doe/optimized_latin_hypercube.hpp>
 #include <drawpoint/doe/seed.hpp>
 #include <drawpoint/doe/uniform.hpp>
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace drawpoint::studies {
@@ -133,14 +135,23 @@ std::vector<Run> runs_to_add(const Identity& identity, const std::vector<Run>& e
   return {all.begin() + static_cast<std::ptrdiff_t>(existing.size()), all.end()};
 }
 
-std::vector<Run> run_that_asks_for_chance(const Identity& identity, const std::vector<Run>& planned) {
+std::vector<Run> run_that_asks_for_chance(const Identity& identity, const std::vector<Run>& existing,
+                                          const std::vector<Run>& added) {
   constexpr int fewest = 20;
-  if (identity.replicates > 1 || identity.problem.deterministic || doe::tells_noise(identity.problem) ||
-      count_points(planned, Kind::training) < fewest)
+  std::vector<Run> all = existing;
+  all.insert(all.end(), added.begin(), added.end());
+  const auto trains = [](const Run& r) { return r.kind == Kind::training; };
+  if (identity.problem.deterministic || doe::tells_noise(identity.problem) ||
+      std::none_of(added.begin(), added.end(), trains) || count_points(all, Kind::training) < fewest ||
+      std::any_of(all.begin(), all.end(), [](const Run& r) { return r.replicate > 0; }))
     return {};
-  Run run = *std::find_if(planned.begin(), planned.end(),
-                          [](const Run& r) { return r.kind == Kind::training && r.point == 1; });
-  run.id = static_cast<std::int64_t>(planned.size()) + 1;
+  const auto far_out = [&](const Run& r) {
+    const Eigen::MatrixXd unit = doe::detail::to_unit_box(r.x.transpose(), identity.problem);
+    return trains(r) ? (unit.array() - 0.5).abs().maxCoeff() : std::numeric_limits<double>::infinity();
+  };
+  Run run = *std::min_element(all.begin(), all.end(),
+                              [&](const Run& a, const Run& b) { return far_out(a) < far_out(b); });
+  run.id = static_cast<std::int64_t>(all.size()) + 1;
   run.replicate = 1;
   run.seed = seed_of(identity, run.kind, run.point, run.replicate);
   return {run};

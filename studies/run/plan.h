@@ -36,9 +36,11 @@ Eigen::MatrixXd further_design(const Identity& identity, const Eigen::MatrixXd& 
 std::vector<Run> runs_to_add(const Identity& identity, const std::vector<Run>& existing, int runs,
                              int validation);
 
-/// One more run at the first training point, of the first design `planned` of a study: with fewer than twenty points,
-/// or where the runs tell their noise or points have replicates already, none.
-std::vector<Run> run_that_asks_for_chance(const Identity& identity, const std::vector<Run>& planned);
+/// One more run at the training point nearest to the middle of the box, where twenty or more are `existing` or `added`
+/// and some are added: at a corner, where nothing happens, noisy runs agree, too. None where the runs tell their noise,
+/// or a point has a replicate already.
+std::vector<Run> run_that_asks_for_chance(const Identity& identity, const std::vector<Run>& existing,
+                                          const std::vector<Run>& added);
 
 /// Points to run, natural units, and what is predicted there: mean and 95 % interval of one run.
 struct PlannedPoints {

@@ -250,8 +250,8 @@ Store plan_study(const Study& study, const Folder& folder, const Settings& setti
   const int validation = settings.plan.validation.value_or(resumes ? count_points(existing, Kind::validation)
                                                                    : study.defaults.validation);
   auto added = runs_to_add(store.identity(), existing, runs, validation);
-  if (!resumes && study.simulator.asks_for_chance)
-    added = everything(added, run_that_asks_for_chance(store.identity(), added));
+  if (study.simulator.asks_for_chance)
+    added = everything(added, run_that_asks_for_chance(store.identity(), existing, added));
   add_imported(settings, study.problem, existing, store.corrections(), added);
   check_runs(runs, everything(existing, added));
   Sampling kept = store.sampling();

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <drawpoint/doe/detail/permutation.hpp>
+#include <drawpoint/kriging/detail/sites.hpp>
 #include <drawpoint/kriging/fit.hpp>
 #include <drawpoint/kriging/replicates.hpp>
 #include <drawpoint/tests/kriging/reference_cases.hpp>
@@ -228,28 +229,59 @@ TEST(Fit, RepeatsThatAgreeChangeNothing) {
   }
 }
 
-// A count that is the same in two runs by chance, beside a response that differs: neither is exact.
+// A count that is the same in two runs by chance is not exact, whether or not a response beside it differs. What is only
+// recorded may differ.
 TEST(Fit, RepeatsThatAgreeByChanceAreNoiseStill) {
   const int n = 24;
   doe::Evaluations runs{.problem = {.variables = {{"a", "1", 0.0, 1.0}, {"b", "1", 0.0, 1.0}},
-                                    .responses = {{"y", "1"}, {"lost", "1"}}},
+                                    .responses = {{"y", "1", doe::Goal::minimize},
+                                                  {"lost", "1", doe::Goal::minimize},
+                                                  {"time", "s"}}},
                         .rows = {}};
   const Runs points = hilly(n, 0.0);
   doe::RandomStream random(5);
   for (int i = 0; i <= n; ++i) {
     const VectorXd x = points.X.row(i % n);
     const double y = points.y[i % n] + 0.1 * random.normal(), lost = std::floor(3 * random.uniform());
-    runs.rows.push_back({i + 1, i / n, 1, x, doe::Outcome(Eigen::Vector2d(y, i % n == 0 ? 1.0 : lost)), 1.0});
+    runs.rows.push_back({i + 1, i / n, 1, x,
+                         doe::Outcome(Eigen::Vector3d(y, i % n == 0 ? 1.0 : lost, random.uniform())), 1.0});
   }
   EXPECT_EQ(repeats_say(runs), RepeatsSay::noisy);
   FitOptions options;
-  EXPECT_LT(fit(runs.X(), runs.y("lost"), options).nugget(), 1e-6) << "which knows nothing of the other";
-  options.may_be_exact = false;
-  EXPECT_GT(fit(runs.X(), runs.y("lost"), options).nugget(), 1e-2);
-  runs.rows.back().outcome = runs.rows.front().outcome;
+  for (const bool may_be_exact : {true, false}) {
+    options.may_be_exact = may_be_exact;
+    EXPECT_GT(fit(runs.X(), runs.y("lost"), options).nugget(), 1e-2);
+  }
+  const VectorXd all = runs.y("y");
+  const double inside = 0.5 * (all.minCoeff() + all.maxCoeff());
+  runs.rows.front().outcome = doe::Outcome(Eigen::Vector3d(inside, 1.0, 3.0));
+  runs.rows.back().outcome = doe::Outcome(Eigen::Vector3d(inside, 1.0, 7.0));
+  EXPECT_EQ(repeats_say(runs), RepeatsSay::nothing) << "a count tells nothing";
+  runs.problem.responses[1].goal = doe::Goal::record;
   EXPECT_EQ(repeats_say(runs), RepeatsSay::exact);
   runs.rows.back().outcome = doe::Failure{"stuck"};
   EXPECT_EQ(repeats_say(runs), RepeatsSay::nothing);
+}
+
+// y = a (1 + 0.4 N): at a = 0 nothing happens, and both runs give 0. That is no sign of a simulator without noise: of
+// twelve sets none is taken for one. Inside the range the same repeats are a sign.
+TEST(Fit, RepeatsThatAgreeWhereNothingHappensTellNothing) {
+  for (doe::Seed seed = 1; seed <= 12; ++seed) {
+    doe::RandomStream random(seed);
+    MatrixXd X(25, 2);
+    X << reference::design(24, 2, seed), Eigen::RowVector2d::Zero();
+    X.row(0).setZero();
+    VectorXd y(25);
+    for (Eigen::Index i = 0; i < 25; ++i) y[i] = X(i, 0) * (1 + 0.4 * random.normal());
+    y[0] = y[24] = 0;
+    const auto sites = detail::sites_of(X);
+    ASSERT_TRUE(detail::repeats_agree(sites, y));
+    EXPECT_FALSE(detail::agreement_tells(sites, y)) << seed;
+    EXPECT_GT(fit(X, y).nugget(), 1e-2) << seed;
+    y[0] = y[24] = 0.5 * (y.minCoeff() + y.maxCoeff());
+    EXPECT_TRUE(detail::agreement_tells(sites, y));
+    EXPECT_LE(fit(X, y).nugget(), 1.001e-6) << seed << ", the upper bound of exact runs";
+  }
 }
 
 TEST(Fit, AnInputWithoutEffectGetsASmallTheta) {

@@ -108,7 +108,8 @@ DRAWPOINT_KRIGING_INLINE NearestModel fit_nearest(const Eigen::MatrixXd& X, cons
   detail::check_fit_nearest(X, y, given, nearest);
   FitOptions options = given.noise == Noise::none ? detail::with_exact_runs(given) : given;
   const auto sites = detail::sites_of(X);
-  if (given.noise_variance.size() == 0 && detail::repeats_agree(sites, y)) {
+  if (given.noise_variance.size() == 0 && detail::repeats_agree(sites, y) &&
+      (given.noise == Noise::none || detail::agreement_tells(sites, y))) {
     const std::vector<Eigen::Index> once = detail::first_runs(sites);
     return fit_nearest(detail::rows_of(X, once), detail::entries_of(y, once), detail::with_exact_runs(given),
                        nearest);

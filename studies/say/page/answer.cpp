@@ -80,12 +80,28 @@ std::string haul_text(const ReportInput& input) {
   return "";
 }
 
+/// "; the middle of the box itself breaks a limit: strength 105 MPa", by the models' means.
+std::string limits_of_reference(const ReportInput& input, const Recommendation& r) {
+  const Eigen::VectorXd means = predicted_means(input, r.reference.x.transpose()).row(0).transpose();
+  std::vector<std::string> broken;
+  for (std::size_t j = 0; j < input.problem.responses.size(); ++j) {
+    const doe::Response& response = input.problem.responses[j];
+    const double y = means[static_cast<Eigen::Index>(j)];
+    if (doe::is_constraint(response.goal) && doe::sign_of(response.goal) * (y - response.limit) > 0)
+      broken.push_back(pretty(response.name) + " " + number_with_unit(y, response.unit));
+  }
+  if (broken.empty()) return "";
+  return "; " + r.reference.name + " itself breaks " + (broken.size() > 1 ? "limits: " : "a limit: ") +
+         listed(broken);
+}
+
 std::string what_it_gains(const ReportInput& input, const Recommendation& r) {
-  if (is_same_place(input.problem, r.x, r.reference.x)) return "That is " + r.reference.name + " itself.";
+  if (is_same_place(input.problem, r.x, r.reference.x))
+    return "That is " + r.reference.name + " itself" + haul_text(input) + ".";
   std::vector<std::string> parts;
   for (const Gain& gain : r.gains) parts.push_back(gain_text(input.problem.responses[gain.response], gain));
   return "Against " + r.reference.name + " the models expect " + listed(parts) + haul_text(input) +
-         "; in brackets with 95 %.";
+         "; in brackets with 95 %" + limits_of_reference(input, r) + ".";
 }
 
 bool is_better(const ReportInput& input, const Gain& gain) {
@@ -114,9 +130,10 @@ std::string what_to_do(const ReportInput& input, const Recommendation& r) {
   const std::string point = point_text(input.problem, r.x),
                     values = values_text(input, predicted_means(input, r.x.transpose()).row(0).transpose()),
                     simulated = simulated_text(input, r);
-  if (judged(input, r).better.empty() && !is_same_place(input.problem, r.x, r.reference.x))
-    return "No strategy is told to be better than " + r.reference.name + "; the models favour " + point +
-           ", where they expect " + values + ", " + simulated + ".";
+  if (judged(input, r).better.empty() && limits_of_reference(input, r).empty() &&
+      !is_same_place(input.problem, r.x, r.reference.x))
+    return "The models favour " + point + ", where they expect " + values + ", " + simulated +
+           "; it is not told to be better than " + r.reference.name + ".";
   return "Take " + point + ": the models expect " + values + " there, " + simulated + ".";
 }
 

@@ -46,9 +46,9 @@ function nextLine({summary: {next}}) {
   if (!next.length) return null;
   const [first] = next,
     doing = next.find((step) => step.command);
-  const why = doing && doing !== first ? el('span', {class: 'why'}, first.text + ' Or: ') : null,
-    what = doing ? el('code', {}, doing.command) : first.text;
-  return el('p', {class: 'brief'}, el('b', {}, 'Next: '), why, what);
+  const command = doing ? el('code', {}, doing.command) : null,
+    or = doing && doing !== first ? el('span', {class: 'or'}, ' Or: ', command) : null;
+  return el('p', {class: 'brief'}, el('b', {}, 'Next: '), doing === first ? command : first.text, or);
 }
 
 /// The first two objectives, or the only one over the variable that matters most.

@@ -25,6 +25,11 @@ export function foldOnNarrow(sections, ids) {
   if (!window.matchMedia(narrow).matches) return;
   const mine = sections.filter(({id}) => ids.includes(id));
   mine.forEach(folded);
-  window.addEventListener('hashchange', () => open(document.getElementById(location.hash.slice(1))));
+  const openAsked = () => open(document.getElementById(location.hash.slice(1)));
+  openAsked();
+  window.addEventListener('hashchange', openAsked);
+  document.addEventListener('click', ({target}) => {
+    if (target.closest('a')?.hash === location.hash) openAsked(); // no change of the hash, which they follow again
+  });
   window.addEventListener('beforeprint', () => mine.forEach(open));
 }
