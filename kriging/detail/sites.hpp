@@ -35,20 +35,25 @@ inline bool repeats_agree(const std::vector<std::vector<Eigen::Index>>& sites, c
   });
 }
 
-/// Whether the repeats of exact runs show that they are: at one site at least they gave a value between the least and the
-/// largest, not 0, that no other site has, as no two others share one there. Where nothing happens, at a corner of the
-/// box, noisy runs agree, too, and counts and rounded numbers do anywhere. A response of one value shows nothing.
+/// Whether repeats that agree show that runs are exact: at one site at least they gave a value between the least and
+/// the largest, not 0, that no other site has. Where nothing happens, at a corner of the box, noisy runs agree, too.
+/// Nor may one pair of other sites in twenty be equal there: counts and rounded numbers agree by chance anywhere.
 inline bool agreement_tells(const std::vector<std::vector<Eigen::Index>>& sites, const Eigen::VectorXd& y) {
-  std::map<double, int> places;
+  std::map<double, double> places;
   for (const std::vector<Eigen::Index>& site : sites) ++places[y[site.front()]];
   if (places.size() < 3) return false;
   places.erase(places.begin());
   places.erase(std::prev(places.end()));
-  if (std::any_of(places.begin(), places.end(), [](const auto& place) { return place.second > 1; }))
-    return false;
-  places.erase(0.0);
+  double count = 0, equal_pairs = 0;
+  for (const auto& [value, times] : places) {
+    count += times;
+    equal_pairs += times * (times - 1);
+  }
+  if (20 * equal_pairs > count * (count - 1)) return false;
   return std::any_of(sites.begin(), sites.end(), [&](const std::vector<Eigen::Index>& site) {
-    return site.size() > 1 && places.count(y[site.front()]) > 0;
+    const double value = y[site.front()];
+    const auto place = places.find(value);
+    return site.size() > 1 && value != 0 && place != places.end() && place->second == 1;
   });
 }
 

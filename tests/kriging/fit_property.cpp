@@ -229,8 +229,8 @@ TEST(Fit, RepeatsThatAgreeChangeNothing) {
   }
 }
 
-// A count that is the same in two runs by chance is not exact, whether or not a response beside it differs. What is only
-// recorded may differ.
+// A count that is the same in two runs by chance is not exact, whether or not a response beside it differs. What is
+// only recorded may differ.
 TEST(Fit, RepeatsThatAgreeByChanceAreNoiseStill) {
   const int n = 24;
   doe::Evaluations runs{.problem = {.variables = {{"a", "1", 0.0, 1.0}, {"b", "1", 0.0, 1.0}},

@@ -84,7 +84,8 @@ TEST(Optimize, MaximizesOverWholeNumbersAndCategories) {
   EXPECT_EQ(o.best[0].x[2], 1.0);
 }
 
-// All twelve points of a box without a real variable are run once, but for the one that is run twice.
+// All twelve points of a box without a real variable are run once, but for the one that is run twice. Counts that
+// several points share do not tell that the simulator is exact, so y is the model's, which may see some noise.
 TEST(Optimize, SaysWhenEveryPointHasBeenRun) {
   const doe::Problem problem{
       .variables = {doe::integer_variable("k", "1", 0, 3), doe::integer_variable("l", "1", 0, 2)},
@@ -92,7 +93,7 @@ TEST(Optimize, SaysWhenEveryPointHasBeenRun) {
   const Optimum o = optimize([](const VectorXd& x) { return std::pow(x[0] - 2, 2) + std::pow(x[1] - 1, 2); },
                              problem, 60, {.first = 6});
   EXPECT_EQ(o.status, OptimizeStatus::no_candidate);
-  EXPECT_EQ(o.best[0].y[0], 0.0);
+  EXPECT_NEAR(o.best[0].y[0], 0.0, 0.01);  // of a range of 5
   EXPECT_EQ(o.best[0].x, Eigen::Vector2d(2, 1));
 }
 

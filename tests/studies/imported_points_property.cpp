@@ -78,8 +78,8 @@ TEST_F(ImportedPoints, DoNotUndoACorrection) {
   auto runs = imported("speed,lining,wear\n2,0,1\n3,0,1\n");
   runs[1].y[0] = 1.75;
   const std::vector<Correction> ledger = {
-      {.run = 2, .what = "replace", .before = R"({"status":"done","values":[1.0]})"},
-      {.run = 1, .what = "exclude", .before = R"({"status":"done","values":[1.0]})"}};
+      {.run = 2, .what = "replace", .why = "", .before = R"({"status":"done","values":[1.0]})", .made = ""},
+      {.run = 1, .what = "exclude", .why = "", .before = R"({"status":"done","values":[1.0]})", .made = ""}};
   for (const char* value : {"1", "1.75"}) {
     std::ofstream(file()) << "speed,lining,wear\n2,0,1\n3,0," << value << "\n";
     EXPECT_TRUE(imported_runs(file(), problem, runs, ledger).empty()) << value;

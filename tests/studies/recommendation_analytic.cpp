@@ -118,6 +118,24 @@ TEST(Recommendation, IsNoneWhereNothingIsToldApart) {
   }
 }
 
+// Whoever may not stay where he is wants a place that is allowed, better or not.
+TEST(Recommendation, SaysWhereTheReferenceBreaksALimit) {
+  ReportInput in = known_study(100, 1, 8);
+  in.problem.responses.push_back(
+      {.name = "strength", .unit = "MPa", .goal = doe::Goal::at_least, .limit = 0.55});
+  in.training.problem = in.validation.problem = in.problem;
+  for (doe::Evaluation& row : in.training.rows) {
+    Eigen::Vector3d y;
+    y << row.outcome.values(), row.x[0];
+    row.outcome = doe::Outcome(y);
+  }
+  in.models.push_back(kriging::fit(in.training.X(), in.training.y("strength")));
+  in.front.responses = predicted_means(in, in.front.X);
+  const std::string text = all_of(in);
+  EXPECT_TRUE(has(text, "Take x0 = ")) << text;
+  EXPECT_TRUE(has(text, "; the middle of the box itself breaks a limit: strength 0.500 MPa.")) << text;
+}
+
 TEST(Recommendation, OfOneObjectiveIsTheBestPointFound) {
   ReportInput in = known_study(0);
   in.problem.responses[1].goal = doe::Goal::record;

@@ -29,7 +29,8 @@ export function foldOnNarrow(sections, ids) {
   openAsked();
   window.addEventListener('hashchange', openAsked);
   document.addEventListener('click', ({target}) => {
-    if (target.closest('a')?.hash === location.hash) openAsked(); // no change of the hash, which they follow again
+    const link = target instanceof Element ? target.closest('a') : null;
+    if (link?.hash === location.hash) openAsked(); // a link that is followed again changes no hash
   });
   window.addEventListener('beforeprint', () => mine.forEach(open));
 }
