@@ -12,12 +12,19 @@ namespace drawpoint::python {
 
 namespace {
 
+/// What all results have.
+template <class Result>
+py::dict head_of(const Result& result) {
+  py::dict head;
+  head["response"] = result.response;
+  head["status"] = std::string(to_string(result.status));
+  head["message"] = result.message;
+  return head;
+}
+
 py::dict dict_of(const doe::SobolIndices& indices) {
   const auto estimates = [](const auto& e) { return py::make_tuple(e.value, e.lower, e.upper); };
-  py::dict result;
-  result["response"] = indices.response;
-  result["status"] = std::string(to_string(indices.status));
-  result["message"] = indices.message;
+  py::dict result = head_of(indices);
   result["mean"] = indices.mean;
   result["variance"] = indices.variance;
   result["first"] = estimates(indices.first);
@@ -27,10 +34,7 @@ py::dict dict_of(const doe::SobolIndices& indices) {
 }
 
 py::dict dict_of(const doe::ElementaryEffects& effects) {
-  py::dict result;
-  result["response"] = effects.response;
-  result["status"] = std::string(to_string(effects.status));
-  result["message"] = effects.message;
+  py::dict result = head_of(effects);
   result["mean"] = effects.mean;
   result["mean_absolute"] = effects.mean_absolute;
   result["deviation"] = effects.deviation;
@@ -40,11 +44,8 @@ py::dict dict_of(const doe::ElementaryEffects& effects) {
 }
 
 py::dict dict_of(const doe::MainEffect& effect) {
-  py::dict result;
+  py::dict result = head_of(effect);
   result["variable"] = effect.variable;
-  result["response"] = effect.response;
-  result["status"] = std::string(to_string(effect.status));
-  result["message"] = effect.message;
   result["x"] = effect.x;
   result["mean"] = effect.mean;
   result["standard_error"] = effect.standard_error;
@@ -68,40 +69,51 @@ doe::SobolEstimator estimator_of(const std::string& text) {
                               "\"; allowed are saltelli, jansen, martinez");
 }
 
+/// How a function is asked.
+struct Asked {
+  const char* who;
+  const py::object& f;
+  const doe::Problem& problem;
+  doe::Seed seed;
+  bool vectorized, seeded;
+};
+
+/// What ask(black box, problem, options) gives, with one seed for points and runs, and ended by Ctrl-C.
+template <class Options, class Ask>
+auto answer(const Asked& asked, Options options, const Ask& ask) {
+  Interrupt interrupt;
+  options.seed = options.evaluate.seed = asked.seed;
+  options.evaluate.stop = interrupt.token();
+  const Batch batch = batch_of(asked.who, asked.f, asked.vectorized, asked.seeded, asked.problem, interrupt);
+  return interrupt.run(false, [&] { return ask(batch, asked.problem, options); });
+}
+
 py::list indices(const py::object& f, const doe::Problem& problem, int samples, bool second_order,
                  const std::string& estimator, double confidence, doe::Seed seed, bool vectorized,
                  bool seeded) {
-  Interrupt interrupt;
   doe::SobolIndicesOptions options;
   options.samples = samples;
   options.second_order = second_order;
   options.estimator = estimator_of(estimator);
   options.confidence = confidence;
-  options.seed = options.evaluate.seed = seed;
-  options.evaluate.stop = interrupt.token();
-  const Batch batch = batch_of("doe::sobol_indices: ", f, vectorized, seeded, problem, interrupt);
-  return list_of(interrupt.run(false, [&] { return doe::sobol_indices(batch, problem, options); }).responses);
+  const auto ask = [](const auto&... with) { return doe::sobol_indices(with...); };
+  return list_of(
+      answer({"doe::sobol_indices: ", f, problem, seed, vectorized, seeded}, options, ask).responses);
 }
 
 py::list screening(const py::object& f, const doe::Problem& problem, int trajectories, int levels,
                    doe::Seed seed, bool vectorized, bool seeded) {
-  Interrupt interrupt;
-  doe::MorrisOptions options{.seed = seed, .trajectories = trajectories, .levels = levels};
-  options.evaluate.seed = seed;
-  options.evaluate.stop = interrupt.token();
-  const Batch batch = batch_of("doe::morris_screening: ", f, vectorized, seeded, problem, interrupt);
+  const doe::MorrisOptions options{.trajectories = trajectories, .levels = levels};
+  const auto ask = [](const auto&... with) { return doe::morris_screening(with...); };
   return list_of(
-      interrupt.run(false, [&] { return doe::morris_screening(batch, problem, options); }).responses);
+      answer({"doe::morris_screening: ", f, problem, seed, vectorized, seeded}, options, ask).responses);
 }
 
 py::list effects(const py::object& f, const doe::Problem& problem, int levels, int samples, doe::Seed seed,
                  bool vectorized, bool seeded) {
-  Interrupt interrupt;
-  doe::MainEffectsOptions options{.seed = seed, .levels = levels, .samples = samples};
-  options.evaluate.seed = seed;
-  options.evaluate.stop = interrupt.token();
-  const Batch batch = batch_of("doe::main_effects: ", f, vectorized, seeded, problem, interrupt);
-  return list_of(interrupt.run(false, [&] { return doe::main_effects(batch, problem, options); }));
+  const doe::MainEffectsOptions options{.levels = levels, .samples = samples};
+  const auto ask = [](const auto&... with) { return doe::main_effects(with...); };
+  return list_of(answer({"doe::main_effects: ", f, problem, seed, vectorized, seeded}, options, ask));
 }
 
 }  // namespace

@@ -52,11 +52,11 @@ int of_any_study(const std::string& program, const std::vector<std::string>& que
   return run_study(std::move(words), any);
 }
 
-/// The first word that is no option and no option's value; empty: there is none.
+/// The first word that is no option and not the folder behind --out; empty: there is none.
 std::string first_of_no_option(const std::vector<std::string>& words, std::size_t from) {
   for (std::size_t i = from; i < words.size(); ++i) {
     if (words[i].rfind('-', 0) != 0) return words[i];
-    if (words[i].find('=') == std::string::npos) ++i;
+    if (words[i] == "--out") ++i;
   }
   return "";
 }

@@ -274,7 +274,9 @@ TEST_F(ExternalProgram, IsSharedWithItsStudyFile) {
   const Ended opened = run(EXTERNAL_PROGRAM " open " + file.string() + " " + there.string());
   ASSERT_EQ(opened.code, 0) << opened.err;
   EXPECT_TRUE(contains(run(EXTERNAL_PROGRAM " open --help").out, "what the command share wrote"));
-  EXPECT_EQ(run(EXTERNAL_PROGRAM " open --out " + (place_ / "third").string() + " " + file.string()).code, 0);
+  EXPECT_EQ(
+      run(EXTERNAL_PROGRAM " open --json --out " + (place_ / "third").string() + " " + file.string()).code,
+      0);
   const std::string theirs = EXTERNAL_PROGRAM " " + (there / "study.json").string(),
                     of_it = " --out " + there.string();
   EXPECT_EQ(run(theirs + " export" + of_it).out, rows);
